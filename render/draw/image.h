@@ -1,0 +1,33 @@
+#pragma once
+
+#include "src/scene/look.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+namespace offstage {
+
+/// A decoded picture to fill shapes with: RGBA, 8 bits each, rows top-down, alpha not premultiplied.
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgba; ///< width*height*4
+};
+
+/// Decodes a PNG, JPEG or BMP file (stb_image). `where` locates the key that named the file and may be empty.
+/// Throws SceneError (located) or Error(BadInput) when it is missing, not an image, damaged, empty, or larger
+/// than 16384 px a side (checked before memory is taken).
+Image loadImage(const std::filesystem::path& file, const SourceLocation& where = {});
+
+/// Images by file, each decoded once. Not thread-safe.
+class ImageCache {
+public:
+  std::shared_ptr<const Image> get(const ImagePattern& pattern);
+
+private:
+  std::vector<std::pair<std::filesystem::path, std::shared_ptr<const Image>>> images_;
+};
+
+} // namespace offstage

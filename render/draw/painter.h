@@ -1,0 +1,48 @@
+#pragma once
+
+#include "render/draw/picture.h"
+#include "src/scene/look.h"
+#include "src/sim/body.h"
+
+#include <memory>
+#include <vector>
+
+namespace offstage {
+
+/// Turns shapes with looks into a Picture's primitives: a fill, then a stroke over it, as JavaFX paints a
+/// node. Bad geometry (NaN, infinite, negative) paints nothing.
+class Painter {
+public:
+  explicit Painter(Viewport viewport, Color background);
+
+  /// A look made ready once: colours as bytes, images decoded. Indices count from 0. Throws as loadImage().
+  std::uint32_t addLook(const Look& look);
+
+  void begin(Picture& picture) const; ///< empties the picture and sets its size and background
+  void circle(Picture& picture, const Vec2& center, double radius, std::uint32_t look) const;
+  void rectangle(Picture& picture, const Vec2& position, const Vec2& size, std::uint32_t look) const;
+  void body(Picture& picture, const Body& body, std::uint32_t look) const;
+
+  [[nodiscard]] const Viewport& viewport() const { return viewport_; }
+
+private:
+  struct PreparedPaint {
+    Rgba8 color;
+    std::shared_ptr<const Image> image; ///< null: colour only
+    std::array<double, 4> anchor{};
+    bool proportional = true;
+    bool repeat = false;
+  };
+  struct PreparedLook {
+    std::optional<PreparedPaint> fill;
+    std::optional<PreparedPaint> stroke;
+    double strokeOutward = 0.0; ///< scene px that the stroke reaches beyond the outline
+    double strokeInward = 0.0;
+  };
+  Viewport viewport_;
+  Rgba8 background_;
+  ImageCache images_;
+  std::vector<PreparedLook> looks_;
+};
+
+} // namespace offstage

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "render/draw/image.h"
+#include "src/sim/vec.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace offstage {
+
+/// A colour ready to be drawn with: sRGB bytes, alpha not premultiplied, opacity already in it.
+struct Rgba8 {
+  std::uint8_t r = 0, g = 0, b = 0, a = 255;
+  friend bool operator==(const Rgba8&, const Rgba8&) = default;
+};
+
+/// How pixels become those of the output: output = scene*scale + offset.
+struct Viewport {
+  int width = 640;  ///< output px
+  int height = 480; ///< output px
+  double scale = 1.0;
+  Vec2 offset = Vec2::Zero(); ///< output px: where the pane's upper-left corner is
+
+  /// The pane at `scale`: size rounded to whole pixels, at least 1×1.
+  static Viewport scaled(double paneWidth, double paneHeight, double scale);
+  /// The pane as large as fits into width×height, centred; the rest shows the background.
+  static Viewport fitted(double paneWidth, double paneHeight, int width, int height);
+};
+
+/// An image pattern placed on the output: one copy of the image fills `origin … origin + size`, and repeats
+/// if asked.
+struct PlacedPattern {
+  std::shared_ptr<const Image> image;
+  Vec2 origin = Vec2::Zero(); ///< output px
+  Vec2 size = Vec2::Zero();   ///< output px, > 0
+  /// false: the image is stretched once over the shape and its outermost texels extend beyond; true: it
+  /// tiles.
+  bool repeat = false;
+};
+
+/// One thing to paint. Coordinates are output pixels, y down, the upper-left pixel's centre at (0.5, 0.5).
+/// Doubles up to here.
+struct Primitive {
+  enum class Kind : std::uint8_t {
+    Disc,    ///< |p − center| < outer
+    Ring,    ///< inner < |p − center| < outer
+    Box,     ///< low < p < high
+    BoxRing, ///< inside low…high and not inside innerLow…innerHigh
+  };
+  Kind kind = Kind::Disc;
+  Rgba8 color;               ///< with a pattern, only .a is used: it multiplies the image's alpha
+  std::int32_t pattern = -1; ///< index into Picture::patterns, or −1
+  Vec2 center = Vec2::Zero();
+  double outer = 0.0; ///< ≥ 0
+  double inner = 0.0; ///< 0 … outer
+  Vec2 low = Vec2::Zero(), high = Vec2::Zero();
+  Vec2 innerLow = Vec2::Zero(), innerHigh = Vec2::Zero();
+};
+
+/// A frame's display list: what is painted, in this order, over the background. Once handed to a canvas it is
+/// not changed.
+struct Picture {
+  int width = 0;  ///< px
+  int height = 0; ///< px
+  Rgba8 background{255, 255, 255, 255};
+  std::vector<Primitive> primitives;
+  std::vector<PlacedPattern> patterns;
+
+  void clear() {
+    primitives.clear();
+    patterns.clear();
+  } ///< keeps the memory for the next frame
+};
+
+} // namespace offstage

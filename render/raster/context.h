@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace offstage {
+
+/// A current OpenGL 3.3 core context without a window. The libraries are loaded at run time, so the program
+/// starts (and can say what is missing) on a machine without them. One context a process; used from the
+/// thread that made it.
+class GlContext {
+public:
+  using Proc = void (*)();
+  virtual ~GlContext() = default;
+  GlContext() = default;
+  GlContext(const GlContext&) = delete;
+  GlContext& operator=(const GlContext&) = delete;
+
+  [[nodiscard]] virtual Proc proc(const char* name) const = 0; ///< a GL function, or null
+  [[nodiscard]] virtual std::string backend() const = 0;       ///< "osmesa" or "egl"
+};
+
+/// Makes the context that the environment variable OFFSTAGE_GL asks for: "osmesa", "egl", or "auto" (default:
+/// OSMesa, then EGL surfaceless). Sets LP_NUM_THREADS=0 unless the user has set it: Offstage's parallelism is
+/// processes. Throws Error(Environment) naming the Debian packages when there is none, Error(BadInput) on
+/// another value.
+std::unique_ptr<GlContext> makeGlContext();
+
+} // namespace offstage

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "src/sim/body.h"
+#include "src/sim/clock.h"
+#include "src/sim/event.h"
+#include "src/sim/random.h"
+#include "src/sim/world_setup.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace offstage {
+
+/// The state of a simulation and the one way to change it. A copy is an independent world that goes on with
+/// the same bits. The order within a frame is the contract's: launches and spawns due → (for each substep:
+/// forces → each body in creation order integrated and held to its walls → contacts over pairs i < j →
+/// removals) → spawns that come after.
+class World {
+public:
+  /// Throws Error(BadInput) when a setup cannot be simulated, such as an `Exact` body without a closed form;
+  /// the message names the body's id and the reason (see closedFormProblem()).
+  explicit World(WorldSetup setup);
+
+  /// One frame: `tick.frame` must be frame() + 1.
+  void step(const Tick& tick);
+
+  [[nodiscard]] std::int64_t frame() const { return frame_; }
+  [[nodiscard]] double time() const { return time_; } ///< s
+  /// The living bodies in order of creation. Valid until the next step.
+  [[nodiscard]] std::span<const Body> bodies() const { return bodies_; }
+  [[nodiscard]] const Body* find(std::uint32_t id) const; ///< null when it is gone (or was never there)
+  /// What happened in the last step, in order.
+  [[nodiscard]] std::span<const Event> events() const { return events_; }
+  [[nodiscard]] const WorldSetup& setup() const { return setup_; }
+  [[nodiscard]] std::uint64_t stateHash() const;
+
+private:
+  WorldSetup setup_;
+  Random random_;
+  std::vector<Body> bodies_;
+  std::vector<Event> events_;
+  std::int64_t frame_ = 0;
+  double time_ = 0.0;
+};
+
+} // namespace offstage
