@@ -1,0 +1,31 @@
+#pragma once
+
+#include "render/job/render_options.h"
+
+#include <array>
+#include <functional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace offstage {
+
+/// Adds the options that replace keys of a scene: --fps --duration --dt --seed --scale.
+void addSceneOptions(CLI::App& app, RenderOptions& options);
+
+/// Adds --size.
+void addSizeOption(CLI::App& app, RenderOptions& options);
+
+/// Adds every option of `render`: -o, the above, --from --to --progress --hash.
+void addRenderOptions(CLI::App& app, RenderOptions& options);
+
+/// "1920x1080" as width and height in px; throws Error(BadInput) on anything else.
+std::array<int, 2> parseSize(const std::string& text);
+
+/// Parses argv with `app` and runs `action`, turning whatever goes wrong into a message on stderr and an exit
+/// status: bad usage 2, an Error its own code, exhausted memory 75.
+int runCommandLine(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& action);
+
+} // namespace offstage

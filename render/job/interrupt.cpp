@@ -1,0 +1,38 @@
+#include "render/job/interrupt.h"
+
+#include "render/output/atomic_file.h"
+#include "src/sim/error.h"
+
+#include <csignal>
+#include <unistd.h>
+
+namespace offstage {
+namespace {
+
+volatile std::sig_atomic_t pendingSignal = 0;
+
+void onSignal(int signal) {
+  if (pendingSignal != 0) {
+    removeTemporariesFromSignalHandler();
+    _exit(128 + signal);
+  }
+  pendingSignal = signal;
+}
+
+} // namespace
+
+void installSignalHandlers() {
+  struct sigaction action = {};
+  action.sa_handler = onSignal;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+void throwIfInterrupted() {
+  if (const int signal = pendingSignal; signal != 0)
+    throw Error(static_cast<ExitCode>(128 + signal), "interrupted; nothing was left under the output's name");
+}
+
+} // namespace offstage

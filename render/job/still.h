@@ -1,0 +1,22 @@
+#pragma once
+
+#include "render/job/scene_source.h"
+#include "render/raster/frame.h"
+
+namespace offstage {
+
+/// One picture of a scene.
+struct Still {
+  Frame frame;
+  bool alpha = false; ///< the background is not opaque
+};
+
+constexpr int kMaxStrobe = 1000;
+
+/// Draws the frame on show at `at` seconds and leaves `source` there. With `strobe` = N > 1 the picture holds
+/// N moments, equally spaced from 0 to `at`, later ones on top; a body that has not moved since the moment
+/// before is drawn once. Throws Error(BadInput) when `at` lies outside the scene's clock. `source` must be at
+/// frame 0.
+Still drawStill(SceneSource& source, double at, int strobe = 1);
+
+} // namespace offstage

@@ -1,0 +1,33 @@
+#include "render/output/codecs.h"
+
+#include <fmt/format.h>
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/avutil.h>
+}
+
+namespace offstage {
+namespace {
+
+std::string version(const char* library, unsigned packed) {
+  return fmt::format("{} {}.{}.{}", library, AV_VERSION_MAJOR(packed), AV_VERSION_MINOR(packed),
+                     AV_VERSION_MICRO(packed));
+}
+
+} // namespace
+
+std::vector<CodecStatus> codecStatus() {
+  std::vector<CodecStatus> codecs{{"libx264", ".mp4 .mkv .mov", "libavcodec59", false}};
+  for (CodecStatus& codec : codecs)
+    codec.present = avcodec_find_encoder_by_name(codec.encoder.c_str()) != nullptr;
+  return codecs;
+}
+
+std::string libavVersions() {
+  return version("libavcodec", avcodec_version()) + ", " + version("libavformat", avformat_version()) + ", " +
+         version("libavutil", avutil_version());
+}
+
+} // namespace offstage

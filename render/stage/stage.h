@@ -1,0 +1,60 @@
+#pragma once
+
+#include "render/stage/node.h"
+#include "src/sim/clock.h"
+#include "src/sim/random.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace offstage {
+
+/// How an exercise runs where its command line says nothing else.
+struct Settings {
+  std::string title;                 ///< metadata of a video
+  std::array<int, 2> size{640, 480}; ///< px: the pane
+  Color background{255, 255, 255, 1.0};
+  double fps = 60.0;      ///< frames (and calls of frame()) a second
+  double duration = 10.0; ///< s
+  std::int64_t seed = 0;  ///< of Stage::random()
+};
+
+/// What an exercise draws on: shapes in order of their adding, later ones on top.
+class Stage {
+public:
+  Stage(const Settings& settings, std::int64_t seed) : settings_(settings), random_(seed) {}
+
+  [[nodiscard]] double width() const { return settings_.size[0]; }  ///< px
+  [[nodiscard]] double height() const { return settings_.size[1]; } ///< px
+  [[nodiscard]] double time() const { return now_.time; }           ///< s since the start
+  [[nodiscard]] std::int64_t frame() const { return now_.frame; } ///< number of the frame being made, from 0
+  [[nodiscard]] Random& random() { return random_; }              ///< java.util.Random, seeded
+
+  /// Puts a shape on top. One that is there already stays where it is.
+  void add(const Node& node);
+  /// Takes a shape away; nothing happens when it is not there.
+  void remove(const Node& node);
+  [[nodiscard]] bool contains(const Node& node) const;
+  [[nodiscard]] std::size_t count() const { return entries_.size(); } ///< shapes on the stage
+
+private:
+  friend class StageSource;
+  struct Entry {
+    Node node;
+    std::uint32_t id; ///< number in order of adding, from 0
+    std::uint32_t look;
+    std::uint64_t lookVersion;
+  };
+  static constexpr std::uint32_t kNoLook = 0xffffffffU;
+
+  Settings settings_;
+  Random random_;
+  Tick now_;
+  std::vector<Entry> entries_;
+  std::vector<std::uint32_t> freeLooks_; ///< of shapes that were removed, to be used again
+  std::uint32_t nextId_ = 0;
+};
+
+} // namespace offstage

@@ -1,0 +1,97 @@
+#include "render/stage/stage_source.h"
+
+#include "src/scene/dt_log.h"
+#include "src/sim/error.h"
+#include "src/sim/state_hash.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace offstage {
+namespace {
+
+constexpr double kMaxSteps = 1e8; ///< keeps an absurd duration from overflowing a frame number
+
+Settings checked(const Settings& settings) {
+  if (settings.size[0] < 1 || settings.size[1] < 1)
+    throw Error(ExitCode::BadInput, fmt::format("the exercise's size {}x{} is not at least 1x1",
+                                                settings.size[0], settings.size[1]));
+  return settings;
+}
+
+Clock makeClock(const Settings& settings, const RenderOptions& options) {
+  const double duration = options.duration.value_or(settings.duration);
+  if (options.dtLog) {
+    const Clock clock = Clock::recorded(readDtLog(*options.dtLog));
+    return options.duration ? clock.truncated(clock.frameAt(duration)) : clock;
+  }
+  const double fps = options.fps.value_or(settings.fps);
+  const double steps = std::ceil(duration * fps - 1e-6);
+  if (!(duration > 0.0) || !(steps <= kMaxSteps))
+    throw Error(ExitCode::BadInput,
+                fmt::format("a duration of {} s at {} frames a second is not from 1 to {} frames", duration,
+                            fps, static_cast<std::int64_t>(kMaxSteps)));
+  return Clock::fixed(fps, static_cast<std::int64_t>(steps));
+}
+
+} // namespace
+
+StageSource::StageSource(std::unique_ptr<Exercise> exercise, const RenderOptions& options)
+    : exercise_(std::move(exercise)),
+      clock_(makeClock(exercise_->settings(), options)),
+      stage_(checked(exercise_->settings()), options.seed.value_or(exercise_->settings().seed)),
+      painter_(options.viewport(stage_.width(), stage_.height(), options.scale.value_or(1.0)),
+               stage_.settings_.background) {
+  exercise_->start(stage_);
+  prepareLooks();
+}
+
+void StageSource::step() {
+  stage_.now_ = clock_.tick(stage_.frame() + 1);
+  exercise_->frame(stage_, stage_.now_.dt);
+  prepareLooks();
+}
+
+void StageSource::draw(Picture& picture) const {
+  painter_.begin(picture);
+  for (const Stage::Entry& entry : stage_.entries_) {
+    const Node::State& node = *entry.node.state_;
+    if (!node.visible) continue;
+    if (node.shape == Shape::Circle)
+      painter_.circle(picture, node.position, node.radius, entry.look);
+    else
+      painter_.rectangle(picture, node.position, node.size, entry.look);
+  }
+}
+
+std::uint64_t StageSource::stateHash() const {
+  StateHash hash(stage_.time());
+  for (const Stage::Entry& entry : stage_.entries_) {
+    const Node::State& node = *entry.node.state_;
+    hash.add(entry.id, node.shape, node.position, node.velocity, node.radius, node.size);
+  }
+  return hash.value();
+}
+
+void StageSource::prepareLooks() {
+  for (Stage::Entry& entry : stage_.entries_) {
+    const Node::State& node = *entry.node.state_;
+    if (entry.look == Stage::kNoLook) {
+      if (stage_.freeLooks_.empty()) {
+        entry.look = painter_.addLook(node.look);
+      } else {
+        entry.look = stage_.freeLooks_.back();
+        stage_.freeLooks_.pop_back();
+        painter_.setLook(entry.look, node.look);
+      }
+    } else if (entry.lookVersion != node.lookVersion) {
+      painter_.setLook(entry.look, node.look);
+    } else {
+      continue;
+    }
+    entry.lookVersion = node.lookVersion;
+  }
+}
+
+} // namespace offstage

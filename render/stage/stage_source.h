@@ -1,0 +1,36 @@
+#pragma once
+
+#include "render/draw/painter.h"
+#include "render/job/render_options.h"
+#include "render/job/source.h"
+#include "render/stage/exercise.h"
+
+#include <memory>
+
+namespace offstage {
+
+/// An exercise as something to render.
+class StageSource : public Source {
+public:
+  /// Calls the exercise's settings() and start(). Throws Error(BadInput) for settings or options that cannot
+  /// be.
+  StageSource(std::unique_ptr<Exercise> exercise, const RenderOptions& options);
+
+  [[nodiscard]] const Clock& clock() const override { return clock_; }
+  [[nodiscard]] const std::string& title() const override { return stage_.settings_.title; }
+  [[nodiscard]] std::int64_t frame() const override { return stage_.frame(); }
+  void step() override;
+  void draw(Picture& picture) const override;
+  [[nodiscard]] std::uint64_t stateHash() const override;
+
+private:
+  /// Gives every shape whose look is new or has changed its place among the painter's looks.
+  void prepareLooks();
+
+  std::unique_ptr<Exercise> exercise_;
+  Clock clock_;
+  Stage stage_;
+  Painter painter_;
+};
+
+} // namespace offstage

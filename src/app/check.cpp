@@ -1,0 +1,75 @@
+#include "render/job/scene_source.h"
+#include "src/app/commands.h"
+#include "src/app/json_text.h"
+#include "src/scene/scene.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace offstage {
+namespace {
+
+/// Everything that a render would refuse before its first frame: the scene's own errors, then its images'.
+std::vector<Diagnostic> problemsOf(const std::filesystem::path& file) {
+  try {
+    const Scene scene = loadScene(file);
+    const SceneSource source(scene, Viewport::scaled(scene.size[0], scene.size[1], scene.scale));
+    return {};
+  } catch (const SceneError& error) {
+    return error.diagnostics();
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::BadInput) throw;
+    return {{{file.string(), 0, 0}, error.what()}};
+  }
+}
+
+void printJson(const std::filesystem::path& file, const std::vector<Diagnostic>& problems, bool first) {
+  fmt::print("{}\n  {{\"file\": {}, \"ok\": {}, \"errors\": [", first ? "[" : ",", jsonText(file.string()),
+             problems.empty());
+  const char* separator = "";
+  for (const Diagnostic& problem : problems) {
+    fmt::print("{}\n    {{\"file\": {}, \"line\": {}, \"column\": {}, \"message\": {}}}", separator,
+               jsonText(problem.where.file), problem.where.line, problem.where.column,
+               jsonText(problem.message));
+    separator = ",";
+  }
+  fmt::print("{}]}}", problems.empty() ? "" : "\n  ");
+}
+
+} // namespace
+
+void addCheck(CLI::App& app, Action& action) {
+  struct Arguments {
+    std::vector<std::filesystem::path> scenes;
+    bool json = false;
+  };
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App& verb = *app.add_subcommand("check", "Validate scenes and the files they name; run nothing");
+  verb.add_option("SCENE", arguments->scenes, "scene files (TOML)")->required();
+  verb.add_flag("--json", arguments->json, "print the result as JSON");
+  verb.callback([arguments, &action] {
+    action = [arguments] {
+      bool good = true;
+      for (std::size_t i = 0; i < arguments->scenes.size(); ++i) {
+        const std::filesystem::path& file = arguments->scenes[i];
+        const std::vector<Diagnostic> problems = problemsOf(file);
+        good = good && problems.empty();
+        if (arguments->json) {
+          printJson(file, problems, i == 0);
+        } else if (problems.empty()) {
+          fmt::print("{}: ok\n", file.string());
+        } else {
+          for (const Diagnostic& problem : problems) fmt::print(stderr, "{}\n", problem.text());
+        }
+      }
+      if (arguments->json) fmt::print("\n]\n");
+      return static_cast<int>(good ? ExitCode::Done : ExitCode::BadInput);
+    };
+  });
+}
+
+} // namespace offstage

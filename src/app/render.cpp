@@ -1,0 +1,35 @@
+#include "render/job/command_line.h"
+#include "render/job/render_job.h"
+#include "render/job/scene_source.h"
+#include "src/app/commands.h"
+#include "src/scene/scene.h"
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+namespace offstage {
+
+void addRender(CLI::App& app, Action& action) {
+  struct Arguments {
+    std::filesystem::path scene;
+    RenderOptions options;
+  };
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App& verb = *app.add_subcommand("render", "Render a scene to a video, to PNGs or to a pipe");
+  verb.add_option("SCENE", arguments->scene, "the scene file (TOML)")->required();
+  addRenderOptions(verb, arguments->options);
+  verb.callback([arguments, &action] {
+    action = [arguments] {
+      const RenderOptions& options = arguments->options;
+      requireOutput(options);
+      const Scene scene = loadScene(arguments->scene, options.sceneOverrides());
+      SceneSource source(scene, options.viewport(scene.size[0], scene.size[1], scene.scale));
+      const RenderResult result = render(source, options);
+      printSummary(result, options);
+      return static_cast<int>(ExitCode::Done);
+    };
+  });
+}
+
+} // namespace offstage
