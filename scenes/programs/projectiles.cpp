@@ -11,7 +11,9 @@ using namespace offstage;
 namespace {
 
 ImagePattern image(const char* name) {
-  return {.file = std::filesystem::path(__FILE__).parent_path().parent_path() / "images" / name};
+  ImagePattern pattern;
+  pattern.file = std::filesystem::path(__FILE__).parent_path().parent_path() / "images" / name;
+  return pattern;
 }
 
 /// A crate (rectangle) or the runner (circle); the crates stand still.
