@@ -1,0 +1,295 @@
+#include "tests/support/process.h"
+#include "tests/support/temp_dir.h"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace offstage::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+std::string slurp(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+void spit(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+std::size_t filesIn(const std::filesystem::path& folder) {
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+TEST(Commands, HelpOfEveryVerbGoesToStdoutWithStatus0) {
+  for (const std::vector<std::string>& verb :
+       std::vector<std::vector<std::string>>{{}, {"render"}, {"still"}, {"trace"}, {"check"}, {"doctor"}}) {
+    std::vector<std::string> arguments = verb;
+    arguments.emplace_back("--help");
+    const ProcessResult result = offstage(arguments);
+    EXPECT_EQ(result.status, 0);
+    EXPECT_THAT(result.out, HasSubstr("Usage:"));
+    EXPECT_EQ(result.err, "");
+  }
+}
+
+TEST(Commands, BadUsageIsStatus2WithAMessageAndNoOutput) {
+  const TempDir dir;
+  const std::string out = (dir.path() / "x.mp4").string();
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
+      {{}, "subcommand"},
+      {{"rendr"}, "rendr"},
+      {{"render"}, "SCENE"},
+      {{"render", scene("fall")}, "-o OUT"},
+      {{"render", scene("fall"), "-o", out, "--frobnicate"}, "--frobnicate"},
+      {{"render", scene("fall"), "-o", out, "--size", "640"}, "--size '640'"},
+      {{"render", scene("fall"), "-o", out, "--size", "0x480"}, "--size '0x480'"},
+      {{"render", scene("fall"), "-o", out, "--size", "100000x100000"}, "100000"},
+      {{"render", scene("fall"), "-o", out, "--fps", "nan"}, "--fps"},
+      {{"render", scene("fall"), "-o", out, "--fps", "60x"}, "'60x'"},
+      {{"render", scene("fall"), "-o", out, "--fps", "0"}, "fps"},
+      {{"render", scene("fall"), "-o", out, "--duration", "-1"}, "duration"},
+      {{"render", scene("fall"), "-o", out, "--seed", "1.5"}, "--seed"},
+      {{"render", scene("fall"), "-o", out, "--scale", "0"}, "scale"},
+      {{"render", scene("fall"), "-o", out, "--from", "5", "--to", "4"}, "5"},
+      {{"render", scene("fall"), "-o", out, "--to", "99"}, "--to 99"},
+      {{"render", scene("fall"), "-o", out, "--progress", "loud"}, "--progress"},
+      {{"render", scene("fall"), "-o", out, "--dt", (dir.path() / "none.dt").string()}, "none.dt"},
+      {{"render", (dir.path() / "none.toml").string(), "-o", out}, "none.toml"},
+      {{"render", scene("fall"), "-o", (dir.path() / "x.txt").string()}, ".txt"},
+      {{"render", scene("fall"), "-o", (dir.path() / "x.png").string()}, ".png"},
+      {{"render", scene("fall"), "-o", (dir.path() / "missing" / "x.mp4").string()}, "missing"},
+      {{"render", scene("fall"), "-o", dir.path().string()}, dir.path().string()},
+      {{"still", scene("fall"), "-o", out, "--at", "1"}, ".png"},
+      {{"still", scene("fall"), "-o", (dir.path() / "x.png").string(), "--at", "11"}, "--at 11"},
+      {{"still", scene("fall"), "-o", (dir.path() / "x.png").string(), "--at", "-1"}, "--at"},
+      {{"still", scene("fall"), "-o", (dir.path() / "x.png").string(), "--at", "1", "--strobe", "0"},
+       "--strobe"},
+      {{"trace", scene("fall"), "-o", (dir.path() / "x.txt").string()}, ".csv"},
+      {{"trace", scene("fall"), "-o", "-", "--events", "-"}, "same place"},
+      {{"check"}, "SCENE"},
+  };
+  for (const auto& [arguments, text] : cases) {
+    const ProcessResult result = offstage(arguments);
+    const std::string shown = ::testing::PrintToString(arguments) + "\n" + result.err;
+    EXPECT_EQ(result.status, 2) << shown;
+    EXPECT_THAT(result.err, HasSubstr(text)) << shown;
+    EXPECT_EQ(result.out, "") << shown;
+    EXPECT_EQ(filesIn(dir.path()), 0U) << shown;
+  }
+}
+
+TEST(Commands, RenderSaysWhatItMadeAndNothingElseWhenPiped) {
+  const TempDir dir;
+  const std::string out = (dir.path() / "fall.mp4").string();
+  const ProcessResult result = offstage({"render", scene("fall"), "-o", out, "--duration", "0.5"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, StartsWith(out + ": 30 frames, 0.500 s, in "));
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(filesIn(dir.path()), 1U);
+}
+
+TEST(Commands, RenderTellsProgressAsJsonLines) {
+  const TempDir dir;
+  const ProcessResult result = offstage({"render", scene("fall"), "-o", (dir.path() / "f.mp4").string(),
+                                         "--duration", "0.2", "--progress", "json"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("\"event\":\"done\",\"frame\":12,\"frames\":12,"));
+}
+
+TEST(Commands, RawPipeHoldsEveryPixelOfEveryFrameAndTheSummaryGoesToStderr) {
+  const ProcessResult result =
+      offstage({"render", scene("shapes"), "-o", "-", "--duration", "0.05", "--size", "64x48"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out.size(), 3U * 64U * 48U * 4U);
+  EXPECT_THAT(result.err, HasSubstr("3 frames"));
+}
+
+TEST(Commands, AClosedPipeIsAnErrorNotASilentDeath) {
+  ProcessOptions options;
+  options.closedOutput = true;
+  const ProcessResult result = offstage({"render", scene("fall"), "-o", "-"}, options);
+  EXPECT_NE(result.status, 0);
+  EXPECT_LT(result.status, 128) << "killed by a signal";
+  EXPECT_THAT(result.err, HasSubstr("error"));
+}
+
+TEST(Commands, CtrlCEndsWith130AndLeavesNothing) {
+  const TempDir dir;
+  ProcessOptions options;
+  options.interruptAfterMs = 700;
+  const ProcessResult result =
+      offstage({"render", scene("exercise2_bounce"), "-o", (dir.path() / "x.mp4").string(), "--duration",
+                "3000", "--size", "1280x960"},
+               options);
+  EXPECT_EQ(result.status, 130) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("interrupted"));
+  EXPECT_EQ(filesIn(dir.path()), 0U);
+}
+
+TEST(Commands, AFailedRenderKeepsTheFileThatWasThere) {
+  const TempDir dir;
+  const std::filesystem::path out = dir.path() / "x.mp4";
+  spit(out, "precious");
+  spit(dir.path() / "bad.toml", "[[body]]\nshape = \"circle\"\ncenter = [1, 2]\nradius = -3\n");
+  const ProcessResult result = offstage({"render", (dir.path() / "bad.toml").string(), "-o", out.string()});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("bad.toml:4:"));
+  EXPECT_EQ(slurp(out), "precious");
+}
+
+TEST(Commands, HashFileHasALineAFrameAndDoesNotDependOnTheOutput) {
+  const TempDir dir;
+  const std::filesystem::path a = dir.path() / "a.txt";
+  const std::filesystem::path b = dir.path() / "b.txt";
+  ASSERT_EQ(offstage({"render", scene("exercise2_bounce"), "--duration", "2", "--hash", a.string()}).status,
+            0);
+  ASSERT_EQ(offstage({"render", scene("exercise2_bounce"), "--duration", "2", "--hash", b.string(), "-o",
+                      (dir.path() / "x.mp4").string()})
+                .status,
+            0);
+  const std::string text = slurp(a);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 120);
+  EXPECT_EQ(text, slurp(b));
+  std::istringstream lines(text);
+  std::string frame;
+  std::string state;
+  std::string pixels;
+  for (int i = 0; i < 120; ++i) {
+    lines >> frame >> state >> pixels;
+    EXPECT_EQ(frame, std::to_string(i));
+    EXPECT_EQ(state.size(), 16U);
+    EXPECT_EQ(pixels.size(), 16U);
+  }
+}
+
+TEST(Commands, PhysicsDoesNotDependOnSizeAndPixelsDo) {
+  const TempDir dir;
+  const auto hashes = [&](const std::vector<std::string>& extra) {
+    std::vector<std::string> arguments{"render", scene("exercise1_bounce"),      "--duration", "0.5",
+                                       "--hash", (dir.path() / "h.txt").string()};
+    arguments.insert(arguments.end(), extra.begin(), extra.end());
+    EXPECT_EQ(offstage(arguments).status, 0);
+    std::istringstream lines(slurp(dir.path() / "h.txt"));
+    std::pair<std::string, std::string> all;
+    std::string frame;
+    std::string state;
+    std::string pixels;
+    while (lines >> frame >> state >> pixels) {
+      all.first += state;
+      all.second += pixels;
+    }
+    return all;
+  };
+  const auto plain = hashes({});
+  const auto large = hashes({"--size", "1280x960"});
+  const auto scaled = hashes({"--scale", "2"});
+  EXPECT_EQ(plain.first, large.first);
+  EXPECT_NE(plain.second, large.second);
+  EXPECT_EQ(large.second, scaled.second);
+}
+
+TEST(Commands, StillDrawsTheFrameOnShow) {
+  const TempDir dir;
+  const std::string out = (dir.path() / "still.png").string();
+  const ProcessResult result = offstage({"still", scene("fall"), "--at", "1.51", "-o", out});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("still.png: 640x480, frame 90 at 1.5 s"));
+  EXPECT_THAT(slurp(out), StartsWith("\x89PNG\r\n\x1a\n"));
+}
+
+TEST(Commands, TraceGoesToStdoutByDefaultWithFrame0AndTheLastState) {
+  const ProcessResult result = offstage({"trace", scene("fall"), "--duration", "0.1"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out,
+              StartsWith("frame,id,time,x,y,vx,vy,radius,group\n0,0,0,123.25,57.5,0,0,20,bodies\n"));
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1 + 7);
+}
+
+TEST(Commands, TraceWritesEventsAndJsonLines) {
+  const TempDir dir;
+  const std::filesystem::path events = dir.path() / "events.csv";
+  const std::filesystem::path states = dir.path() / "x.jsonl";
+  const ProcessResult result =
+      offstage({"trace", scene("exercise1_bounce"), "-o", states.string(), "--events", events.string()});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(slurp(events), StartsWith("frame,event,id1,id2,time,p,q\n"));
+  EXPECT_THAT(slurp(events), HasSubstr(",bottom,0,-1,"));
+  EXPECT_THAT(slurp(states), StartsWith("{\"frame\":0,\"id\":0,\"time\":0,\"x\":320,"));
+}
+
+TEST(Commands, CheckListsEveryErrorOfEveryFile) {
+  const TempDir dir;
+  spit(dir.path() / "a.toml", "durations = 3\n[[body]]\nshape = \"circle\"\ncenter = [1, 2]\nradius = -3\n");
+  spit(dir.path() / "b.toml", "[clock]\nfps = 0\n");
+  const std::string a = (dir.path() / "a.toml").string();
+  const std::string b = (dir.path() / "b.toml").string();
+  const ProcessResult result = offstage({"check", a, scene("fall"), b});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.out, scene("fall") + ": ok\n");
+  EXPECT_THAT(result.err, HasSubstr(a + ":1:1: error: "));
+  EXPECT_THAT(result.err, HasSubstr("duration"));
+  EXPECT_THAT(result.err, HasSubstr(a + ":5:"));
+  EXPECT_THAT(result.err, HasSubstr(b + ":2:"));
+}
+
+TEST(Commands, CheckDecodesImages) {
+  const TempDir dir;
+  spit(dir.path() / "broken.png", "this is no picture");
+  spit(dir.path() / "a.toml",
+       "[[body]]\nshape = \"circle\"\ncenter = [1, 2]\nradius = 3\nfill = { image = \"broken.png\" }\n");
+  const ProcessResult result = offstage({"check", (dir.path() / "a.toml").string()});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("a.toml:5:"));
+  EXPECT_THAT(result.err, HasSubstr("broken.png"));
+}
+
+TEST(Commands, CheckAsJson) {
+  const TempDir dir;
+  spit(dir.path() / "b.toml", "[clock]\nfps = 0\n");
+  const ProcessResult result = offstage({"check", "--json", scene("fall"), (dir.path() / "b.toml").string()});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.err, "");
+  EXPECT_THAT(result.out, HasSubstr("\"ok\": true, \"errors\": []}"));
+  EXPECT_THAT(result.out, HasSubstr("\"line\": 2, \"column\": "));
+}
+
+TEST(Commands, DoctorFindsEverythingThatTheBuildInstalled) {
+  const ProcessResult result = offstage({"doctor"});
+  EXPECT_EQ(result.status, 0) << result.out;
+  EXPECT_THAT(result.out, HasSubstr("GL           ok: osmesa"));
+  EXPECT_THAT(result.out, HasSubstr("ok: libx264"));
+}
+
+TEST(Commands, ProgramsInCppMoveAndLookExactlyAsTheirScenes) {
+  const TempDir dir;
+  for (const std::string name : {"fall", "exercise1_bounce", "spawn", "exercise2_spawn_bounce",
+                                 "exercise2_vanish", "exercise2_bounce", "projectiles"}) {
+    const std::filesystem::path ofScene = dir.path() / "scene.txt";
+    const std::filesystem::path ofProgram = dir.path() / "program.txt";
+    ASSERT_EQ(offstage({"render", scene(name), "--hash", ofScene.string()}).status, 0);
+    const ProcessResult result =
+        runProcess({OFFSTAGE_BINARY_DIR "/programs/" + name, "--hash", ofProgram.string()});
+    ASSERT_EQ(result.status, 0) << result.err;
+    std::istringstream expected(slurp(ofScene));
+    std::istringstream actual(slurp(ofProgram));
+    std::string expectedLine;
+    std::string actualLine;
+    while (std::getline(expected, expectedLine)) {
+      ASSERT_TRUE(std::getline(actual, actualLine)) << name << " ends before " << expectedLine;
+      ASSERT_EQ(actualLine, expectedLine) << name;
+    }
+    EXPECT_FALSE(std::getline(actual, actualLine)) << name << " goes on with " << actualLine;
+  }
+}
+
+} // namespace
+} // namespace offstage::testing
