@@ -53,7 +53,7 @@ bool holdsFrameRate(Container container, AVRational framesPerSecond) {
 Muxer::Muxer(AtomicFile& file, const MuxerSettings& settings, const AVCodecParameters& stream)
     : file_(file),
       timeBase_(settings.timeBase),
-      packet_(libav::makePacket()),
+      pending_(libav::makePacket()),
       reorderDepth_(stream.video_delay) {
   libav::quietLog();
   // libavformat reads the file by its name when it moves the index to the front; "file:" keeps a name such as
@@ -119,27 +119,49 @@ void Muxer::require(int result, const char* what) {
 }
 
 void Muxer::write(const AVPacket& packet) {
-  libav::check(av_packet_ref(packet_.get(), &packet), ExitCode::Transient, "no memory for a packet");
-  starts_.push(packet.pts);
-  if (packets_ == 0) {
-    firstStart_ = packet.pts;
-    firstDuration_ = packet.duration;
+  if (packets_ > 0) {
+    lastDts_ = pending_->dts;
+    writePending();
   }
+  libav::check(av_packet_ref(pending_.get(), &packet), ExitCode::Transient, "no memory for a packet");
+  if (packets_ == 0) firstStart_ = packet.pts;
+  end_ = std::max(end_, packet.pts + packet.duration);
+  starts_.push(packet.pts);
   if (packets_ < reorderDepth_) {
-    packet_->dts = firstStart_ - (reorderDepth_ - packets_) * firstDuration_;
+    pending_->dts = firstStart_ - (reorderDepth_ - packets_);
   } else {
-    packet_->dts = starts_.top();
+    pending_->dts = starts_.top();
     starts_.pop();
   }
   ++packets_;
-  packet_->stream_index = stream_->index;
-  av_packet_rescale_ts(packet_.get(), timeBase_, stream_->time_base);
-  const int result = av_write_frame(format_.get(), packet_.get());
-  av_packet_unref(packet_.get());
+}
+
+void Muxer::writePending() {
+  AVPacket& packet = *pending_;
+  packet.stream_index = stream_->index;
+  // Rounded so that a frame ends where the next begins, in a container whose tick is coarser than the time
+  // base too.
+  const std::int64_t end = av_rescale_q(packet.pts + packet.duration, timeBase_, stream_->time_base);
+  packet.pts = av_rescale_q(packet.pts, timeBase_, stream_->time_base);
+  packet.dts = av_rescale_q(packet.dts, timeBase_, stream_->time_base);
+  packet.duration = end - packet.pts;
+  const int result = av_write_frame(format_.get(), &packet);
+  av_packet_unref(&packet);
   require(result, "libavformat refuses a packet");
 }
 
+void Muxer::endPending() {
+  AVPacket& packet = *pending_;
+  packet.dts =
+      std::max(packet.pts - reorderDepth_, packets_ > 1 ? lastDts_ + 1 : firstStart_ - reorderDepth_);
+  packet.duration = std::max<std::int64_t>(end_ - reorderDepth_ - packet.dts, 1);
+}
+
 void Muxer::finish() {
+  if (packets_ > 0) {
+    endPending();
+    writePending();
+  }
   require(av_write_trailer(format_.get()), "cannot write the video's index");
   avio_flush(io_.get());
   require(io_->error, "cannot write the video's end");

@@ -42,11 +42,12 @@ public:
   Muxer& operator=(const Muxer&) = delete;
 
   /// Takes packets in decoding order with pts and duration; pts of different chunks follow each other.
-  /// Derives dts: the k-th packet's is the (k − d)-th smallest pts, d being the depth of reordering; for the
-  /// first d packets it lies before the first pts by multiples of the first frame's duration. So dts never
-  /// decrease and are never after pts, across chunks of separate encoders too.
+  /// Derives dts for the whole file, across chunks of separate encoders: the k-th packet's is the (k − d)-th
+  /// smallest pts, d being the depth of reordering, and the first d packets' lie d … 1 ticks before the first
+  /// pts. So dts rise strictly and are never after pts.
   void write(const AVPacket& packet);
-  void finish(); ///< writes the index; nothing may be written afterwards
+  /// Writes the index; nothing may be written afterwards.
+  void finish();
 
   [[nodiscard]] std::int64_t bytesWritten() const { return bytes_; }
 
@@ -56,18 +57,26 @@ private:
   /// The error that AtomicFile threw inside a callback comes out here; else check() of libav's result.
   void require(int result, const char* what);
 
+  void writePending();
+  /// .mp4 states a track's length twice: as the end of the last frame, and as the sum of what decoding times
+  /// leave each packet. With equal frames both agree by themselves. With others they do if the last packet in
+  /// decoding order, which need not be the last frame, is decoded d ticks before its time and lasts until the
+  /// end: the sum is then end − d − (−d).
+  void endPending();
+
   AtomicFile& file_;
   libav::IoContext io_; ///< outlives format_, which writes to it
   libav::OutputContext format_;
   AVStream* stream_ = nullptr;
   AVRational timeBase_;
-  libav::Packet packet_;
+  libav::Packet pending_; ///< the packet that came last: how long it lasts depends on whether another follows
   std::exception_ptr fileError_;
   std::int64_t bytes_ = 0;
   std::int64_t packets_ = 0;
   std::int64_t reorderDepth_ = 0;
   std::int64_t firstStart_ = 0;
-  std::int64_t firstDuration_ = 0;
+  std::int64_t lastDts_ = 0; ///< of the packet before pending_
+  std::int64_t end_ = 0;     ///< of the frame that is shown last, so far
   /// pts that are not yet used as a dts, smallest first.
   std::priority_queue<std::int64_t, std::vector<std::int64_t>, std::greater<>> starts_;
 };
