@@ -3,12 +3,35 @@
 #include "render/raster/frame.h"
 
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 namespace offstage {
 
-/// Encodes a frame as PNG: 8-bit RGB, or RGBA when `alpha`; an sRGB chunk; compressed with libdeflate.
-/// `dotsPerMetre` > 0 adds a pHYs chunk. The bytes depend only on the arguments (and libdeflate's version).
+/// Encodes frames as PNG (ISO/IEC 15948): 8-bit RGB, or RGBA; IHDR, sRGB (perceptual), pHYs when a resolution
+/// is given, one IDAT, IEND. The bytes depend only on the arguments and libdeflate's version. Keeps its
+/// buffers, so that the frames of a sequence allocate nothing. Not for use from two threads at once.
+class PngEncoder {
+public:
+  PngEncoder();
+  ~PngEncoder();
+  PngEncoder(const PngEncoder&) = delete;
+  PngEncoder& operator=(const PngEncoder&) = delete;
+
+  /// The whole file; valid until the next call. `alpha`: RGBA, else alpha is left out. `dotsPerMetre` > 0
+  /// adds a pHYs chunk. Throws Error(BadInput) when the frame is empty, its buffer does not match its size,
+  /// or dotsPerMetre < 0.
+  std::span<const std::uint8_t> encode(const Frame& frame, bool alpha, int dotsPerMetre = 0);
+
+private:
+  struct Compressor;
+  std::unique_ptr<Compressor> compressor_;
+  std::vector<std::uint8_t> rows_; ///< the filter byte and the pixels of every row
+  std::vector<std::uint8_t> file_;
+};
+
+/// The same for a single picture.
 std::vector<std::uint8_t> encodePng(const Frame& frame, bool alpha, int dotsPerMetre = 0);
 
 } // namespace offstage

@@ -1,0 +1,67 @@
+#include "render/output/file_error.h"
+
+#include <cerrno>
+#include <system_error>
+
+#include <fmt/format.h>
+
+namespace offstage {
+
+namespace {
+
+struct Reason {
+  ExitCode code;
+  std::string text;
+};
+
+Reason reasonOf(int error, const std::filesystem::path& path) {
+  const std::string folder = quoted(folderOf(path));
+  switch (error) {
+  case ENOSPC:
+    return {ExitCode::Transient, "no space left on the disk that holds " + folder};
+  case EDQUOT:
+    return {ExitCode::Transient, "no space left on the disk that holds " + folder + " (quota exceeded)"};
+  case EFBIG:
+    return {ExitCode::Transient, "the file grew past the largest size allowed here (see ulimit -f)"};
+  case EIO:
+    return {ExitCode::Transient, "input/output error on the disk that holds " + folder};
+  case ENOENT:
+    return {ExitCode::BadInput, "the folder " + folder + " does not exist"};
+  case ENOTDIR:
+    return {ExitCode::BadInput, "a part of " + folder + " is not a folder"};
+  case EACCES:
+  case EPERM:
+    return {ExitCode::BadInput, "no permission to write in the folder " + folder};
+  case EISDIR:
+    return {ExitCode::BadInput, "it is a folder"};
+  case EROFS:
+    return {ExitCode::BadInput, "the folder " + folder + " is on a read-only file system"};
+  case ENAMETOOLONG:
+    return {ExitCode::BadInput, "the name is too long"};
+  case ELOOP:
+    return {ExitCode::BadInput, "its symbolic links lead in a circle"};
+  default:
+    return {ExitCode::Transient, std::generic_category().message(error)};
+  }
+}
+
+} // namespace
+
+Error fileError(int error, const std::filesystem::path& path) {
+  const Reason reason = reasonOf(error, path);
+  return {reason.code, fmt::format("cannot write {}: {}", quoted(path), reason.text)};
+}
+
+std::string quoted(const std::filesystem::path& path) {
+  std::string text = "'";
+  text += path.native();
+  text += '\'';
+  return text;
+}
+
+std::filesystem::path folderOf(const std::filesystem::path& path) {
+  std::filesystem::path folder = path.parent_path();
+  return folder.empty() ? "." : folder;
+}
+
+} // namespace offstage

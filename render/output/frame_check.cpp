@@ -1,0 +1,32 @@
+#include "render/output/frame_check.h"
+
+#include "src/sim/error.h"
+
+#include <cstddef>
+
+#include <fmt/format.h>
+
+namespace offstage {
+
+void requireWholeFrame(const Frame& frame) {
+  if (frame.width < 1 || frame.height < 1) {
+    throw Error(ExitCode::BadInput,
+                fmt::format("a frame of {} × {} px has no pixels", frame.width, frame.height));
+  }
+  const std::size_t bytes =
+      static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height) * 4;
+  if (frame.rgba.size() != bytes) {
+    throw Error(ExitCode::BadInput, fmt::format("a frame of {} × {} px holds {} bytes instead of {}",
+                                                frame.width, frame.height, frame.rgba.size(), bytes));
+  }
+}
+
+void requireFrameSize(const Frame& frame, int width, int height) {
+  requireWholeFrame(frame);
+  if (frame.width != width || frame.height != height) {
+    throw Error(ExitCode::BadInput, fmt::format("a frame of {} × {} px came to an output of {} × {} px",
+                                                frame.width, frame.height, width, height));
+  }
+}
+
+} // namespace offstage

@@ -1,0 +1,187 @@
+#include "render/output/verify.h"
+
+#include "render/output/file_error.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+extern "C" {
+#include <libavutil/mathematics.h>
+#include <libavutil/pixdesc.h>
+}
+
+namespace offstage {
+
+namespace {
+
+struct CloseInput {
+  void operator()(AVFormatContext* context) const { avformat_close_input(&context); }
+};
+
+/// libav's names may be null for numbers that it does not know.
+std::string_view nameOr(const char* name) {
+  return name == nullptr ? "unknown" : name;
+}
+
+class Verifier {
+public:
+  Verifier(const std::filesystem::path& file, const ExpectedVideo& expected,
+           const std::filesystem::path& name)
+      : expected_(expected), name_(name), packet_(libav::makePacket()), frame_(libav::makeFrame()) {
+    libav::quietLog();
+    const std::string url = "file:" + file.native();
+    AVFormatContext* format = nullptr;
+    check(avformat_open_input(&format, url.c_str(), nullptr, nullptr), "it cannot be opened again");
+    format_.reset(format);
+    check(avformat_find_stream_info(format, nullptr), "its streams are not recognised");
+    if (format->nb_streams != 1) fail(fmt::format("it has {} streams instead of 1", format->nb_streams));
+    stream_ = format->streams[0];
+    openDecoder();
+  }
+
+  void run() {
+    compareStream();
+    readAll();
+    decodeLast();
+    if (!differences_.empty()) fail(differences_);
+  }
+
+private:
+  void openDecoder() {
+    const AVCodec* codec = avcodec_find_decoder(stream_->codecpar->codec_id);
+    if (codec == nullptr) {
+      throw Error(ExitCode::Environment, "libavcodec has no decoder to check the finished video with: "
+                                         "install the Debian package libavcodec59");
+    }
+    decoder_.reset(libav::allocated(avcodec_alloc_context3(codec)));
+    check(avcodec_parameters_to_context(decoder_.get(), stream_->codecpar), "its codec is not described");
+    decoder_->pkt_timebase = stream_->time_base;
+    decoder_->thread_count = 1;
+    check(avcodec_open2(decoder_.get(), codec, nullptr), "its decoder does not open");
+  }
+
+  [[noreturn]] void fail(std::string_view why) const {
+    throw Error(ExitCode::Transient,
+                fmt::format("the check of the finished {} failed: {}", quoted(name_), why));
+  }
+
+  int check(int result, std::string_view what) const {
+    return libav::check(result, ExitCode::Transient,
+                        fmt::format("the check of the finished {} failed: {}", quoted(name_), what));
+  }
+
+  template <class Found, class Wanted>
+  void compare(std::string_view what, const Found& found, const Wanted& wanted) {
+    if (found == wanted) return;
+    if (!differences_.empty()) differences_ += "; ";
+    differences_ += fmt::format("{} {} instead of {}", what, found, wanted);
+  }
+
+  void compareStream() {
+    const AVCodecParameters& stream = *stream_->codecpar;
+    compare("codec", std::string_view(avcodec_get_name(stream.codec_id)), std::string_view("h264"));
+    compare("profile", nameOr(avcodec_profile_name(stream.codec_id, stream.profile)),
+            std::string_view("High"));
+    compare("width", stream.width, expected_.width);
+    compare("height", stream.height, expected_.height);
+    compare("pixel format", nameOr(av_get_pix_fmt_name(static_cast<AVPixelFormat>(stream.format))),
+            std::string_view("yuv420p"));
+    compare("primaries", nameOr(av_color_primaries_name(stream.color_primaries)), std::string_view("bt709"));
+    compare("transfer", nameOr(av_color_transfer_name(stream.color_trc)), std::string_view("bt709"));
+    compare("matrix", nameOr(av_color_space_name(stream.color_space)), std::string_view("bt709"));
+    compare("range", nameOr(av_color_range_name(stream.color_range)), std::string_view("tv"));
+    compare("chroma location", nameOr(av_chroma_location_name(stream.chroma_location)),
+            std::string_view("left"));
+    compareTime("duration", format_->duration, AV_TIME_BASE_Q, expected_.end);
+  }
+
+  void compareTime(std::string_view what, std::int64_t found, AVRational foundBase, std::int64_t wanted) {
+    const AVRational tick = av_cmp_q(foundBase, {1, 1000}) > 0 ? foundBase : AVRational{1, 1000};
+    const AVRational tolerance = av_cmp_q(stream_->time_base, tick) > 0 ? stream_->time_base : tick;
+    const double difference = static_cast<double>(found) * av_q2d(foundBase) -
+                              static_cast<double>(wanted) * av_q2d(expected_.timeBase);
+    if (std::abs(difference) <= av_q2d(tolerance) * 1.000001) return;
+    compare(what, fmt::format("{:.6f} s", static_cast<double>(found) * av_q2d(foundBase)),
+            fmt::format("{:.6f} s", static_cast<double>(wanted) * av_q2d(expected_.timeBase)));
+  }
+
+  /// Every packet of the file; the first frame on the way.
+  void readAll() {
+    std::int64_t frames = 0;
+    std::int64_t first = AV_NOPTS_VALUE;
+    bool decoded = false;
+    while (readPacket()) {
+      ++frames;
+      if (first == AV_NOPTS_VALUE) first = packet_->pts;
+      lastStart_ = std::max(lastStart_, packet_->pts);
+      if (!decoded) decoded = decode(packet_.get());
+      av_packet_unref(packet_.get());
+    }
+    if (!decoded) decoded = decode(nullptr);
+    compare("number of frames", frames, expected_.frames);
+    if (frames == 0 || !decoded) fail("its first frame does not decode");
+    compareTime("start", first, stream_->time_base, 0);
+    compareTime("start of the last frame", lastStart_, stream_->time_base, expected_.lastStart);
+  }
+
+  /// From the last key frame on; frames that no other refers to are skipped but for the last.
+  void decodeLast() {
+    check(av_seek_frame(format_.get(), stream_->index, lastStart_, AVSEEK_FLAG_BACKWARD),
+          "its last frame is not found");
+    avcodec_flush_buffers(decoder_.get());
+    lastDecoded_ = AV_NOPTS_VALUE;
+    while (readPacket()) {
+      decoder_->skip_frame = packet_->pts == lastStart_ ? AVDISCARD_DEFAULT : AVDISCARD_NONREF;
+      decode(packet_.get());
+      av_packet_unref(packet_.get());
+    }
+    decode(nullptr);
+    if (lastDecoded_ != lastStart_) fail("its last frame does not decode");
+  }
+
+  bool readPacket() {
+    const int result = av_read_frame(format_.get(), packet_.get());
+    if (result == AVERROR_EOF) return false;
+    check(result, "it cannot be read to the end");
+    return true;
+  }
+
+  /// Whether a frame came out. A null packet asks for what the decoder still holds.
+  bool decode(const AVPacket* packet) {
+    check(avcodec_send_packet(decoder_.get(), packet), "a frame does not decode");
+    bool any = false;
+    while (true) {
+      const int result = avcodec_receive_frame(decoder_.get(), frame_.get());
+      if (result == AVERROR(EAGAIN) || result == AVERROR_EOF) return any;
+      check(result, "a frame does not decode");
+      if (frame_->decode_error_flags != 0 || (frame_->flags & AV_FRAME_FLAG_CORRUPT) != 0)
+        fail("a frame is damaged");
+      any = true;
+      lastDecoded_ = std::max(lastDecoded_, frame_->pts);
+    }
+  }
+
+  const ExpectedVideo& expected_;
+  const std::filesystem::path& name_;
+  std::unique_ptr<AVFormatContext, CloseInput> format_;
+  AVStream* stream_ = nullptr;
+  libav::CodecContext decoder_;
+  libav::Packet packet_;
+  libav::VideoFrame frame_;
+  std::int64_t lastStart_ = AV_NOPTS_VALUE;
+  std::int64_t lastDecoded_ = AV_NOPTS_VALUE;
+  std::string differences_;
+};
+
+} // namespace
+
+void verifyVideo(const std::filesystem::path& file, const ExpectedVideo& expected,
+                 const std::filesystem::path& name) {
+  Verifier(file, expected, name).run();
+}
+
+} // namespace offstage
