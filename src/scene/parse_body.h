@@ -1,0 +1,28 @@
+#pragma once
+
+#include "src/scene/scene_builder.h"
+
+namespace offstage {
+
+inline constexpr Choice<Integrator> kIntegrators[] = {
+    {"explicit-euler", Integrator::ExplicitEuler},
+    {"semi-implicit-euler", Integrator::SemiImplicitEuler},
+    {"verlet", Integrator::Verlet},
+    {"midpoint", Integrator::Midpoint},
+    {"rk4", Integrator::Rk4},
+    {"exact", Integrator::Exact},
+};
+
+/// What [[body]] and [[spawn]] share: shape, group, gravity, fixed, integrator, leaving. The look is not
+/// read. Returns whether the shape is known, so that keys can be held against it.
+bool readBodyProperties(SceneBuilder& builder, const TableReader& reader, Body& body);
+
+/// The keys group and leaving, which [[launch]] shares with them.
+void readGroupAndLeaving(SceneBuilder& builder, const TableReader& reader, Body& body);
+
+/// Reports each given key that belongs to the other shape.
+void rejectKeysOfOtherShape(const TableReader& reader, Shape shape,
+                            std::initializer_list<std::string_view> circle,
+                            std::initializer_list<std::string_view> rectangle);
+
+} // namespace offstage

@@ -1,0 +1,61 @@
+#include "src/scene/scene_builder.h"
+
+#include <fmt/core.h>
+
+namespace offstage {
+namespace {
+
+constexpr Choice<Response> kResponses[] = {{"bounce", Response::Bounce},
+                                           {"remove", Response::Remove},
+                                           {"remove-immediately", Response::RemoveImmediately},
+                                           {"slide", Response::Slide},
+                                           {"report", Response::Report}};
+
+/// The two groups that the rule is for. False when one of them is wrong.
+bool readGroups(SceneBuilder& builder, const TableReader& reader, ContactRule& rule) {
+  const TomlValue* between = reader.find("between");
+  if (between == nullptr) {
+    reader.require("between");
+    return false;
+  }
+  const std::string what = reader.described("between");
+  if (between->array() == nullptr || between->array()->size() != 2) {
+    reportMismatch(*between, what, "an array of 2 group names", builder.errors);
+    return false;
+  }
+  const auto first = builder.findGroup((*between->array())[0], "value 1 of " + what);
+  const auto second = builder.findGroup((*between->array())[1], "value 2 of " + what);
+  if (!first || !second) return false;
+  rule.groupA = *first;
+  rule.groupB = *second;
+  return true;
+}
+
+} // namespace
+
+void parseCollide(SceneBuilder& builder, const TomlValue& table) {
+  const TableReader reader(table, {"collide"}, "[[collide]]", builder.errors);
+  ContactRule rule;
+  const bool groupsKnown = readGroups(builder, reader, rule);
+  rule.response = reader.choice("response", kResponses);
+  rule.restitution = reader.number("restitution", Range::between(0.0, 1.0));
+  rule.separate = reader.boolean("separate");
+  rule.approachingOnly = reader.boolean("approaching_only");
+  if (rule.response != Response::Bounce && reader.has("restitution")) {
+    reader.reject("restitution", "belongs to response = \"bounce\" only");
+  }
+  if (!groupsKnown) return;
+
+  for (std::size_t i = 0; i < builder.scene.world.contacts.size(); ++i) {
+    const ContactRule& other = builder.scene.world.contacts[i];
+    const bool same = (other.groupA == rule.groupA && other.groupB == rule.groupB) ||
+                      (other.groupA == rule.groupB && other.groupB == rule.groupA);
+    if (!same) continue;
+    reader.reject("between", fmt::format("has a rule already, in line {}", builder.collideTables[i]->line));
+    return;
+  }
+  builder.scene.world.contacts.push_back(rule);
+  builder.collideTables.push_back(&table);
+}
+
+} // namespace offstage

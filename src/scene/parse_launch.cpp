@@ -1,0 +1,73 @@
+#include "src/scene/parse_body.h"
+#include "src/scene/parse_look.h"
+
+#include <functional>
+#include <limits>
+
+#include <fmt/core.h>
+
+namespace offstage {
+namespace {
+
+/// Calls `read` for a single value or for each one of a list.
+void readEach(const TableReader& reader, std::string_view key, std::string_view wanted,
+              const std::function<void(const TomlValue&, const std::string&)>& read) {
+  const TomlValue& value = *reader.find(key);
+  const std::string what = reader.described(key);
+  const auto* list = value.array();
+  if (list == nullptr) {
+    read(value, what);
+  } else if (list->empty()) {
+    reportMismatch(value, what, wanted, reader.errors());
+  } else {
+    for (std::size_t i = 0; i < list->size(); ++i)
+      read((*list)[i], fmt::format("value {} of {}", i + 1, what));
+  }
+}
+
+std::vector<Launch::Moment> readMoments(const TableReader& reader) {
+  std::vector<Launch::Moment> moments;
+  if (reader.rejectBoth("frame", "at")) return moments;
+  if (reader.has("at")) {
+    readEach(reader, "at", "a time or a list of times", [&](const TomlValue& value, const std::string& what) {
+      const auto time = readNumber(value, what, Range::atLeast(0.0), reader.errors());
+      if (time) moments.push_back({std::nullopt, *time});
+    });
+  } else if (reader.has("frame")) {
+    readEach(reader, "frame", "a frame or a list of frames",
+             [&](const TomlValue& value, const std::string& what) {
+               const auto frame =
+                   readInteger(value, what, 1, std::numeric_limits<std::int64_t>::max(), reader.errors());
+               if (frame) moments.push_back({frame, 0.0});
+             });
+  } else {
+    reader.errors().add(reader.value(), "[[launch]] needs 'at' or 'frame'");
+  }
+  return moments;
+}
+
+} // namespace
+
+void parseLaunch(SceneBuilder& builder, const TomlValue& table) {
+  const TableReader reader(table, {"launch"}, "[[launch]]", builder.errors);
+  Launch launch;
+  launch.moments = readMoments(reader);
+  launch.from = builder.readAnchor(reader, "from").value_or(Anchor{});
+  launch.toward = builder.readAnchor(reader, "toward").value_or(Anchor{});
+  launch.speed = builder.view.length()(reader.number("speed", Range::atLeast(0.0)));
+
+  Body& body = launch.prototype;
+  readGroupAndLeaving(builder, reader, body);
+  body.feelsGravity = false;
+  body.integrator = builder.integrator;
+  body.radius = builder.view.length()(reader.number("radius", Range::atLeast(0.0)));
+  body.mass = reader.number("mass", Range::above(0.0));
+  body.look = readLooks(builder, reader, false).front();
+  builder.requireFinite(table, "[[launch]]",
+                        {launch.speed, body.radius, launch.from.point.x(), launch.from.point.y(),
+                         launch.toward.point.x(), launch.toward.point.y()});
+  builder.scene.world.launches.push_back(std::move(launch));
+  builder.launchTables.push_back(&table);
+}
+
+} // namespace offstage

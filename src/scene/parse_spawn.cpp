@@ -1,0 +1,192 @@
+#include "src/scene/parse_body.h"
+#include "src/scene/parse_look.h"
+
+#include <cmath>
+#include <limits>
+
+#include <fmt/core.h>
+
+namespace offstage {
+namespace {
+
+constexpr Choice<Spawner::Count> kCounts[] = {{"spawned", Spawner::Count::Spawned},
+                                              {"alive", Spawner::Count::Alive}};
+constexpr Choice<Spawner::When> kWhens[] = {{"before-update", Spawner::When::BeforeUpdate},
+                                            {"after-update", Spawner::When::AfterUpdate}};
+
+/// A number's generator: exactly one of int, spread, uniform, gaussian. `allowed` holds for what the user
+/// chooses, not for what chance makes of it (a gaussian radius may be drawn below 0 and then is 0).
+std::optional<Number> readGenerator(const TableReader& keys, const std::string& what, Range allowed) {
+  std::vector<std::string_view> given;
+  for (const std::string_view key : {"int", "spread", "uniform", "gaussian"}) {
+    if (keys.has(key)) given.push_back(key);
+  }
+  if (given.empty()) {
+    keys.errors().add(keys.value(),
+                      fmt::format("{} needs one of 'int', 'spread', 'uniform' or 'gaussian'", what));
+    return std::nullopt;
+  }
+  if (given.size() > 1) {
+    keys.rejectBoth(given[1], given[0]);
+    return std::nullopt;
+  }
+  if (keys.has("int")) {
+    const auto bound = keys.givenInteger("int", 1, std::numeric_limits<std::int32_t>::max());
+    if (!bound) return std::nullopt;
+    return IntegerNumber{static_cast<std::int32_t>(*bound)};
+  }
+  if (keys.has("spread")) {
+    const auto half = keys.givenNumber("spread", Range::atLeast(0.0));
+    if (!half) return std::nullopt;
+    return SpreadNumber{*half};
+  }
+  if (keys.has("uniform")) {
+    const auto bounds = keys.givenNumbers<2>("uniform", allowed);
+    if (!bounds) return std::nullopt;
+    if ((*bounds)[0] > (*bounds)[1]) {
+      keys.reject("uniform", "must be [low, high] with low not above high");
+      return std::nullopt;
+    }
+    return UniformNumber{(*bounds)[0], (*bounds)[1]};
+  }
+  const auto parameters = keys.givenNumbers<2>("gaussian");
+  if (!parameters) return std::nullopt;
+  if (!allowed.contains((*parameters)[0]) || (*parameters)[1] < 0.0) {
+    keys.reject("gaussian",
+                fmt::format("must be [mean, deviation] with a mean of {} and a deviation of at least 0",
+                            allowed.text()));
+    return std::nullopt;
+  }
+  return GaussianNumber{(*parameters)[0], (*parameters)[1]};
+}
+
+bool isFinite(const Number& number) {
+  struct Finite {
+    bool operator()(const ConstantNumber& n) const { return std::isfinite(n.value); }
+    bool operator()(const IntegerNumber& /*n*/) const { return true; }
+    bool operator()(const SpreadNumber& n) const { return std::isfinite(n.half); }
+    bool operator()(const UniformNumber& n) const { return std::isfinite(n.low) && std::isfinite(n.high); }
+    bool operator()(const GaussianNumber& n) const {
+      return std::isfinite(n.mean) && std::isfinite(n.deviation);
+    }
+  };
+  return std::visit(Finite{}, number);
+}
+
+/// Reads the numbers of one [[spawn]], in the scene's units, and maps them onto pixels.
+class NumberReader {
+public:
+  NumberReader(SceneBuilder& builder, const TableReader& reader) : builder_(builder), reader_(reader) {}
+
+  /// The key's number; `fallback` (in pixels) when it is absent or wrong.
+  Number read(std::string_view key, Range allowed, const AffineMap& map, double fallback) const {
+    const TomlValue* value = reader_.find(key);
+    if (value == nullptr) return ConstantNumber{fallback};
+    const auto number = readInSceneUnits(*value, key, allowed);
+    if (!number) return ConstantNumber{fallback};
+    const auto result = mapped(*number, map);
+    if (!result) {
+      reader_.reject(
+          key, "cannot be { int = … } under this [view]: it draws whole pixels; use { uniform = [a, b] }");
+      return ConstantNumber{fallback};
+    }
+    if (!isFinite(*result)) reader_.reject(key, "is too large for this [view]");
+    return *result;
+  }
+
+  /// Two numbers that may also be given as one constant pair: x and y or center, vx and vy or velocity.
+  /// Returns whether the pair was given.
+  bool readPair(std::string_view pairKey, std::string_view firstKey, std::string_view secondKey,
+                Range allowed, const AffineMap& firstMap, const AffineMap& secondMap, Number& first,
+                Number& second) const {
+    if (reader_.has(pairKey)) {
+      if (!reader_.rejectBoth(firstKey, pairKey)) reader_.rejectBoth(secondKey, pairKey);
+      const auto pair = reader_.pair(pairKey, allowed);
+      first = ConstantNumber{firstMap(pair[0])};
+      second = ConstantNumber{secondMap(pair[1])};
+      if (!isFinite(first) || !isFinite(second)) reader_.reject(pairKey, "is too large for this [view]");
+      return true;
+    }
+    first = read(firstKey, allowed, firstMap, 0.0);
+    second = read(secondKey, allowed, secondMap, 0.0);
+    return false;
+  }
+
+  /// The same for a pair that must be given in one of its forms.
+  void requirePair(std::string_view pairKey, std::string_view firstKey, std::string_view secondKey,
+                   Range allowed, const AffineMap& firstMap, const AffineMap& secondMap, Number& first,
+                   Number& second) const {
+    if (readPair(pairKey, firstKey, secondKey, allowed, firstMap, secondMap, first, second)) return;
+    const bool hasFirst = reader_.has(firstKey);
+    const bool hasSecond = reader_.has(secondKey);
+    if (!hasFirst && !hasSecond) {
+      builder_.errors.add(reader_.value(), fmt::format("[[spawn]] needs '{}' and '{}', or '{}'", firstKey,
+                                                       secondKey, pairKey));
+    } else if (!hasFirst || !hasSecond) {
+      reader_.require(hasFirst ? secondKey : firstKey);
+    }
+  }
+
+private:
+  std::optional<Number> readInSceneUnits(const TomlValue& value, std::string_view key, Range allowed) const {
+    const std::string what = reader_.described(key);
+    if (value.table() != nullptr) {
+      const TableReader keys(value, {"random"}, reader_.label(), builder_.errors, std::string(key) + '.');
+      return readGenerator(keys, what, allowed);
+    }
+    const bool isNumber =
+        std::holds_alternative<double>(value.data) || std::holds_alternative<std::int64_t>(value.data);
+    if (!isNumber) {
+      reportMismatch(value, what, "a number or a random number such as { int = 640 }", builder_.errors);
+      return std::nullopt;
+    }
+    const auto constant = readNumber(value, what, allowed, builder_.errors);
+    if (!constant) return std::nullopt;
+    return ConstantNumber{*constant};
+  }
+
+  SceneBuilder& builder_;
+  const TableReader& reader_;
+};
+
+} // namespace
+
+void parseSpawn(SceneBuilder& builder, const TomlValue& table) {
+  const TableReader reader(table, {"spawn"}, "[[spawn]]", builder.errors);
+  const NumberReader numbers(builder, reader);
+  const View& view = builder.view;
+  Spawner spawner;
+  spawner.every = reader.number("every", Range::above(0.0));
+  spawner.count = reader.choice("count", kCounts);
+  spawner.when = reader.choice("when", kWhens);
+  spawner.limit = reader.givenInteger("limit", 0, std::numeric_limits<std::int64_t>::max());
+
+  Body& body = spawner.prototype;
+  body.spawner = static_cast<std::uint32_t>(builder.scene.world.spawners.size());
+  const bool shapeKnown = readBodyProperties(builder, reader, body);
+  spawner.looks = readLooks(builder, reader, true);
+  body.look = spawner.looks.front();
+
+  if (shapeKnown) {
+    rejectKeysOfOtherShape(reader, body.shape, {"center", "radius"}, {"position", "size", "width", "height"});
+    const bool isCircle = body.shape == Shape::Circle;
+    numbers.requirePair(isCircle ? "center" : "position", "x", "y", Range::any(), view.x(), view.y(),
+                        spawner.x, spawner.y);
+    if (isCircle) {
+      if (!reader.has("radius")) reader.require("radius");
+      spawner.radius = numbers.read("radius", Range::atLeast(0.0), view.length(), 0.0);
+    } else {
+      numbers.requirePair("size", "width", "height", Range::atLeast(0.0), view.length(), view.length(),
+                          spawner.width, spawner.height);
+    }
+  }
+  numbers.readPair("velocity", "vx", "vy", Range::any(), view.vectorX(), view.vectorY(), spawner.vx,
+                   spawner.vy);
+  numbers.readPair("acceleration", "ax", "ay", Range::any(), view.vectorX(), view.vectorY(), spawner.ax,
+                   spawner.ay);
+  spawner.mass = numbers.read("mass", Range::above(0.0), AffineMap{}, 1.0);
+  builder.scene.world.spawners.push_back(std::move(spawner));
+  builder.spawnTables.push_back(&table);
+}
+
+} // namespace offstage

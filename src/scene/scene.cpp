@@ -1,0 +1,118 @@
+#include "src/scene/scene.h"
+
+#include "src/scene/limits.h"
+#include "src/scene/parse_clock.h"
+#include "src/scene/quote.h"
+#include "src/scene/scene_builder.h"
+#include "src/scene/text_file.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/core.h>
+
+namespace offstage {
+namespace {
+
+/// A table of which a scene has one, `[frame]`; null when it is absent or no table.
+const TomlValue* singleTable(const TableReader& top, std::string_view key) {
+  const TomlValue* value = top.find(key);
+  if (value == nullptr || value->table() != nullptr) return value;
+  reportMismatch(*value, top.described(key), fmt::format("one table, [{}]", key), top.errors());
+  return nullptr;
+}
+
+void parseSingle(SceneBuilder& builder, const TableReader& top, std::string_view key,
+                 void (*parse)(SceneBuilder&, const TomlValue&)) {
+  if (const TomlValue* table = singleTable(top, key)) parse(builder, *table);
+}
+
+/// Tables of which a scene has any number, `[[body]]`.
+void parseEach(SceneBuilder& builder, const TableReader& top, std::string_view key,
+               void (*parse)(SceneBuilder&, const TomlValue&)) {
+  const TomlValue* value = top.find(key);
+  if (value == nullptr) return;
+  const std::string wanted = fmt::format("an array of tables, [[{}]]", key);
+  if (value->array() == nullptr || value->array()->empty()) {
+    reportMismatch(*value, top.described(key), wanted, builder.errors);
+    return;
+  }
+  for (const TomlValue& element : *value->array()) {
+    if (element.table() == nullptr) {
+      reportMismatch(element, "every value of " + top.described(key), "a table", builder.errors);
+    } else {
+      parse(builder, element);
+    }
+  }
+}
+
+/// The picture's size in output pixels, which scale must keep in bounds.
+void checkScale(SceneBuilder& builder, const std::optional<double>& given) {
+  Scene& scene = builder.scene;
+  if (given) {
+    const Range allowed = Range::aboveUpTo(0.0, kMaxScale);
+    if (!std::isfinite(*given) || !allowed.contains(*given)) {
+      builder.errors.add(fmt::format("the scale given for this run must be {}, but it is {}", allowed.text(),
+                                     numberText(*given)));
+      return;
+    }
+    scene.scale = *given;
+  }
+  const double width = std::round(scene.size[0] * scene.scale);
+  const double height = std::round(scene.size[1] * scene.scale);
+  const double largest = static_cast<double>(kMaxSide);
+  if (width >= 1.0 && height >= 1.0 && width <= largest && height <= largest) return;
+  builder.errors.add(
+      fmt::format("size times scale gives a picture of {}x{} px; each side must be from 1 to {}", width,
+                  height, kMaxSide));
+}
+
+void parseTables(SceneBuilder& builder, const TomlValue& root, const SceneOverrides& overrides) {
+  const TableReader top(root, {""}, "", builder.errors);
+  Scene& scene = builder.scene;
+  scene.title = top.givenString("title").value_or(scene.file.stem().string());
+  scene.world.seed =
+      top.integer("seed", std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max());
+  if (overrides.seed) scene.world.seed = *overrides.seed;
+
+  parseSingle(builder, top, "frame", parseFrame);
+  checkScale(builder, overrides.scale);
+  scene.world.pane = Vec2(scene.size[0], scene.size[1]);
+  parseClock(builder, singleTable(top, "clock"), top, overrides);
+  // The view and the world's integrator come before everything that they hold for.
+  parseSingle(builder, top, "view", parseView);
+  parseSingle(builder, top, "world", parseWorld);
+  parseSingle(builder, top, "walls", parseWalls);
+  // Names come before what refers to them: groups and bodies before collisions and forces.
+  parseEach(builder, top, "body", parseBody);
+  parseEach(builder, top, "spawn", parseSpawn);
+  parseEach(builder, top, "launch", parseLaunch);
+  parseEach(builder, top, "collide", parseCollide);
+  parseEach(builder, top, "force", parseForce);
+}
+
+} // namespace
+
+Scene loadScene(const std::filesystem::path& file, const SceneOverrides& overrides) {
+  return parseScene(readTextFile(file, kMaxSceneBytes, "a scene"), file, overrides);
+}
+
+Scene parseScene(std::string_view text, const std::filesystem::path& file, const SceneOverrides& overrides) {
+  if (text.size() > kMaxSceneBytes) {
+    throw Error(ExitCode::BadInput,
+                fmt::format("{}: error: a scene may hold at most {} bytes", file.string(), kMaxSceneBytes));
+  }
+  Diagnostic syntaxError;
+  const auto root = parseToml(text, file.string(), syntaxError);
+  if (!root) throw SceneError({syntaxError});
+
+  SceneBuilder builder(file);
+  parseTables(builder, *root, overrides);
+  builder.errors.throwIfAny();
+  if (builder.scene.world.groups.empty()) builder.scene.world.groups = WorldSetup{}.groups;
+  builder.scene.looks = builder.looks.take();
+  return std::move(builder.scene);
+}
+
+} // namespace offstage

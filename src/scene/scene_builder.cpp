@@ -1,0 +1,112 @@
+#include "src/scene/scene_builder.h"
+
+#include "src/scene/nearest.h"
+#include "src/scene/quote.h"
+
+#include <algorithm>
+#include <cmath>
+#include <system_error>
+#include <vector>
+
+#include <fmt/core.h>
+
+namespace offstage {
+namespace {
+
+using Names = std::map<std::string, std::uint32_t, std::less<>>;
+
+/// The index of a name that must be known. `kind`: "group", "body".
+std::optional<std::uint32_t> findName(const Names& names, const TomlValue& value, const std::string& what,
+                                      std::string_view kind, ErrorList& errors) {
+  const auto* name = std::get_if<std::string>(&value.data);
+  if (name == nullptr) {
+    reportMismatch(value, what, fmt::format("the name of a {}", kind), errors);
+    return std::nullopt;
+  }
+  if (const auto found = names.find(*name); found != names.end()) return found->second;
+  std::vector<std::string_view> known;
+  for (const auto& [candidate, index] : names) known.emplace_back(candidate);
+  const std::string_view near = nearest(*name, known);
+  std::string hint;
+  if (!near.empty()) {
+    hint = fmt::format("; did you mean {}?", quotedText(near));
+  } else if (known.empty()) {
+    hint = fmt::format("; the scene has no {}", kind == "body" ? "named body" : kind);
+  }
+  errors.add(value, fmt::format("{} names an unknown {}, {}{}", what, kind, quotedText(*name), hint));
+  return std::nullopt;
+}
+
+} // namespace
+
+SceneBuilder::SceneBuilder(const std::filesystem::path& file) : errors(file.string()) {
+  scene.file = file;
+  scene.world.groups.clear(); // they come with the bodies that name them
+}
+
+void SceneBuilder::requireFinite(const TomlValue& table, const std::string& label,
+                                 std::initializer_list<double> numbers) {
+  if (std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); }))
+    return;
+  errors.add(table, fmt::format("a number in {} is too large for this [view]", label));
+}
+
+std::uint32_t SceneBuilder::addGroup(const std::string& name) {
+  const auto [place, isNew] = groups.try_emplace(name, static_cast<std::uint32_t>(groups.size()));
+  if (isNew) scene.world.groups.push_back(name);
+  return place->second;
+}
+
+std::optional<std::uint32_t> SceneBuilder::findGroup(const TomlValue& value, const std::string& what) {
+  return findName(groups, value, what, "group", errors);
+}
+
+std::optional<std::uint32_t> SceneBuilder::findBody(const TomlValue& value, const std::string& what) {
+  return findName(bodies, value, what, "body", errors);
+}
+
+std::optional<Anchor> SceneBuilder::readAnchor(const TableReader& reader, std::string_view key) {
+  const TomlValue* value = reader.find(key);
+  if (value == nullptr) {
+    reader.require(key);
+    return std::nullopt;
+  }
+  const std::string what = reader.described(key);
+  if (std::holds_alternative<std::string>(value->data)) {
+    const auto body = findBody(*value, what);
+    if (!body) return std::nullopt;
+    return Anchor{Vec2::Zero(), body};
+  }
+  if (value->array() == nullptr) {
+    reportMismatch(*value, what, "[x, y] or a body's name", errors);
+    return std::nullopt;
+  }
+  const auto point = reader.givenNumbers<2>(key);
+  if (!point) return std::nullopt;
+  return Anchor{view.position({(*point)[0], (*point)[1]}), std::nullopt};
+}
+
+std::optional<std::filesystem::path> SceneBuilder::readFile(const TableReader& reader, std::string_view key) {
+  const auto name = reader.givenString(key);
+  if (!name) return std::nullopt;
+  const auto reject = [&](const std::string& problem) {
+    reader.reject(key, fmt::format("names the file {}, {}", quotedText(*name), problem));
+    return std::nullopt;
+  };
+  // A path with a zero byte would silently be cut there by the operating system's calls.
+  if (name->find('\0') != std::string::npos) return reject("but a file's name holds no zero byte");
+  const std::filesystem::path path(*name);
+  if (path.is_absolute())
+    return reject("but a scene names its files relative to itself, to work on every machine");
+  std::filesystem::path file = scene.file.parent_path() / path;
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (status.type() == std::filesystem::file_type::not_found) {
+    return reject(fmt::format("which does not exist ({})", quotedText(file.string())));
+  }
+  if (!std::filesystem::status_known(status)) return reject("which cannot be looked up: " + error.message());
+  if (!std::filesystem::is_regular_file(status)) return reject("which is no regular file");
+  return file;
+}
+
+} // namespace offstage

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "src/scene/error_list.h"
+#include "src/scene/look_table.h"
+#include "src/scene/scene.h"
+#include "src/scene/table_reader.h"
+#include "src/scene/view.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <initializer_list>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace offstage {
+
+/// A scene while it is read, and the names that its later tables may refer to. The parsers of the tables
+/// (parse….h) fill it in this order: the single tables, bodies, spawns, launches, collisions, forces.
+struct SceneBuilder {
+  explicit SceneBuilder(const std::filesystem::path& file);
+
+  Scene scene;
+  ErrorList errors;
+  View view;
+  Integrator integrator = Integrator::SemiImplicitEuler; ///< the world's
+  LookTable looks;
+  std::map<std::string, std::uint32_t, std::less<>> groups; ///< by name: index into WorldSetup::groups
+  std::map<std::string, std::uint32_t, std::less<>> bodies; ///< by name: id
+  std::map<std::string, std::uint32_t, std::less<>> lines;  ///< by a body's name: line where it was given
+
+  // Where the entries of WorldSetup's lists stand in the file; they live in the caller's tree.
+  std::vector<const TomlValue*> bodyTables;
+  std::vector<const TomlValue*> spawnTables;
+  std::vector<const TomlValue*> launchTables;
+  std::vector<const TomlValue*> collideTables;
+
+  /// The index of a group, which comes into being by its first mention.
+  std::uint32_t addGroup(const std::string& name);
+  /// The index of a group that must have bodies; an unknown name is reported at `value`.
+  std::optional<std::uint32_t> findGroup(const TomlValue& value, const std::string& what);
+  /// The id of a named body; an unknown name is reported at `value`.
+  std::optional<std::uint32_t> findBody(const TomlValue& value, const std::string& what);
+  /// `[x, y]` in the scene's units or a body's name.
+  std::optional<Anchor> readAnchor(const TableReader& reader, std::string_view key);
+  /// A file that the scene names: beside the scene, and there. Else reported and nothing returned.
+  std::optional<std::filesystem::path> readFile(const TableReader& reader, std::string_view key);
+  /// Reports when [view] has made one of a table's numbers infinite.
+  void requireFinite(const TomlValue& table, const std::string& label, std::initializer_list<double> numbers);
+};
+
+inline Vec2 toVec2(const std::array<double, 2>& pair) {
+  return {pair[0], pair[1]};
+}
+
+// One function a table of the format. Each reads the table(s) of its name and reports every error in them.
+void parseFrame(SceneBuilder& builder, const TomlValue& table);
+void parseView(SceneBuilder& builder, const TomlValue& table);
+void parseWorld(SceneBuilder& builder, const TomlValue& table);
+void parseWalls(SceneBuilder& builder, const TomlValue& table);
+void parseBody(SceneBuilder& builder, const TomlValue& table);
+void parseSpawn(SceneBuilder& builder, const TomlValue& table);
+void parseLaunch(SceneBuilder& builder, const TomlValue& table);
+void parseCollide(SceneBuilder& builder, const TomlValue& table);
+void parseForce(SceneBuilder& builder, const TomlValue& table);
+
+} // namespace offstage

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+namespace offstage {
+
+/// The whole of a text file, a pipe included. Throws Error(BadInput) with a message that begins with the file
+/// and names what is wrong: it does not exist, is a folder, may not be read, or holds more than `limit` bytes
+/// (`what` names the kind of file in that message: "a scene").
+std::string readTextFile(const std::filesystem::path& file, std::size_t limit, const std::string& what);
+
+} // namespace offstage
