@@ -4,7 +4,9 @@
 #include "src/scene/look.h"
 #include "src/sim/body.h"
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace offstage {
@@ -31,14 +33,22 @@ private:
     std::shared_ptr<const Image> image; ///< null: colour only
     std::array<double, 4> anchor{};
     bool proportional = true;
-    bool repeat = false;
   };
   struct PreparedLook {
     std::optional<PreparedPaint> fill;
     std::optional<PreparedPaint> stroke;
-    double strokeOutward = 0.0; ///< scene px that the stroke reaches beyond the outline
-    double strokeInward = 0.0;
+    double strokeWidth = 0.0; ///< scene px
+    StrokeAlign strokeAlign = StrokeAlign::Centered;
   };
+  /// A shape's bounding box without its stroke, output px: what proportional patterns are fitted to.
+  struct Bounds {
+    Vec2 low;
+    Vec2 high;
+  };
+
+  PreparedPaint prepare(const Paint& paint, double opacity);
+  void add(Picture& picture, Primitive& primitive, const PreparedPaint& paint, const Bounds& bounds,
+           bool isStroke) const;
   Viewport viewport_;
   Rgba8 background_;
   ImageCache images_;

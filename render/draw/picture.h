@@ -15,12 +15,20 @@ struct Rgba8 {
   friend bool operator==(const Rgba8&, const Rgba8&) = default;
 };
 
+/// A rectangle of whole pixels, from left, top up to but without right, bottom.
+struct PixelRect {
+  int left = 0, top = 0, right = 0, bottom = 0;
+  [[nodiscard]] bool empty() const { return left >= right || top >= bottom; }
+  friend bool operator==(const PixelRect&, const PixelRect&) = default;
+};
+
 /// How pixels become those of the output: output = scene*scale + offset.
 struct Viewport {
   int width = 640;  ///< output px
   int height = 480; ///< output px
   double scale = 1.0;
-  Vec2 offset = Vec2::Zero(); ///< output px: where the pane's upper-left corner is
+  Vec2 offset = Vec2::Zero();     ///< output px: where the pane's upper-left corner is
+  PixelRect clip{0, 0, 640, 480}; ///< output px: the pane; nothing is painted outside it
 
   /// The pane at `scale`: size rounded to whole pixels, at least 1×1.
   static Viewport scaled(double paneWidth, double paneHeight, double scale);
@@ -64,6 +72,7 @@ struct Picture {
   int width = 0;  ///< px
   int height = 0; ///< px
   Rgba8 background{255, 255, 255, 255};
+  PixelRect clip; ///< primitives are painted only inside it; the background everywhere
   std::vector<Primitive> primitives;
   std::vector<PlacedPattern> patterns;
 

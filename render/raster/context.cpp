@@ -1,0 +1,47 @@
+#include "render/raster/context.h"
+
+#include "render/raster/backends.h"
+#include "src/sim/error.h"
+
+#include <cstdlib>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace offstage {
+namespace {
+
+/// Mesa reads these once, when its driver starts. A user's own setting wins.
+void setMesaDefaults() {
+  setenv("LP_NUM_THREADS", "0", 0);        // llvmpipe's own threads: parallelism is processes here
+  setenv("LIBGL_ALWAYS_SOFTWARE", "1", 0); // EGL must not pick a GPU's driver: other pixels
+  setenv("GALLIUM_DRIVER", "llvmpipe", 0);
+}
+
+constexpr std::string_view kInstallHint =
+    "install libosmesa6, or libegl1 libegl-mesa0 libgl1-mesa-dri (apt-get install ...)";
+
+} // namespace
+
+std::unique_ptr<GlContext> makeGlContext() {
+  const char* setting = std::getenv("OFFSTAGE_GL");
+  const std::string_view wanted = setting == nullptr || *setting == '\0' ? "auto" : setting;
+  if (wanted != "auto" && wanted != "osmesa" && wanted != "egl") {
+    throw Error(ExitCode::BadInput,
+                fmt::format("OFFSTAGE_GL is '{}'; it may be osmesa, egl or auto", wanted));
+  }
+  setMesaDefaults();
+  std::string reasons;
+  const auto attempt = [&](std::string_view name, auto make) -> std::unique_ptr<GlContext> {
+    if (wanted != "auto" && wanted != name) return nullptr;
+    std::string reason;
+    std::unique_ptr<GlContext> context = make(reason);
+    if (context == nullptr) reasons += fmt::format("\n  {}: {}", name, reason);
+    return context;
+  };
+  if (auto context = attempt("osmesa", makeOsMesaContext)) return context;
+  if (auto context = attempt("egl", makeEglContext)) return context;
+  throw Error(ExitCode::Environment, fmt::format("no OpenGL to draw with: {}{}", kInstallHint, reasons));
+}
+
+} // namespace offstage
