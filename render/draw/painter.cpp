@@ -26,6 +26,13 @@ Painter::Painter(Viewport viewport, Color background)
     : viewport_(viewport), background_(bytes(background, 1.0)) {}
 
 std::uint32_t Painter::addLook(const Look& look) {
+  looks_.push_back(prepare(look));
+  return static_cast<std::uint32_t>(looks_.size() - 1);
+}
+
+void Painter::setLook(std::uint32_t index, const Look& look) { looks_.at(index) = prepare(look); }
+
+Painter::PreparedLook Painter::prepare(const Look& look) {
   PreparedLook prepared;
   if (look.fill) prepared.fill = prepare(*look.fill, look.opacity);
   if (look.stroke && look.stroke->width > 0.0) {
@@ -33,8 +40,7 @@ std::uint32_t Painter::addLook(const Look& look) {
     prepared.strokeWidth = look.stroke->width;
     prepared.strokeAlign = look.stroke->align;
   }
-  looks_.push_back(std::move(prepared));
-  return static_cast<std::uint32_t>(looks_.size() - 1);
+  return prepared;
 }
 
 Painter::PreparedPaint Painter::prepare(const Paint& paint, double opacity) {

@@ -19,6 +19,8 @@ public:
 
   /// A look made ready once: colours as bytes, images decoded. Indices count from 0. Throws as loadImage().
   std::uint32_t addLook(const Look& look);
+  /// Puts another look in the place of one that was added. Throws as loadImage().
+  void setLook(std::uint32_t index, const Look& look);
 
   void begin(Picture& picture) const; ///< empties the picture and sets its size and background
   void circle(Picture& picture, const Vec2& center, double radius, std::uint32_t look) const;
@@ -46,6 +48,7 @@ private:
     Vec2 high;
   };
 
+  PreparedLook prepare(const Look& look);
   PreparedPaint prepare(const Paint& paint, double opacity);
   void add(Picture& picture, Primitive& primitive, const PreparedPaint& paint, const Bounds& bounds,
            bool isStroke) const;

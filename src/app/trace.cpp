@@ -2,7 +2,7 @@
 
 #include "render/job/command_line.h"
 #include "render/job/interrupt.h"
-#include "render/output/text_file.h"
+#include "render/output/text_output.h"
 #include "src/app/commands.h"
 #include "src/scene/scene.h"
 #include "src/sim/world.h"
@@ -51,8 +51,8 @@ void addTrace(CLI::App& app, Action& action) {
         throw Error(ExitCode::BadInput, "the trace and its events cannot go to the same place");
       const Scene scene = loadScene(arguments->scene, arguments->options.sceneOverrides());
 
-      TextFile states(arguments->out);
-      std::optional<TextFile> events;
+      TextOutput states(arguments->out);
+      std::optional<TextOutput> events;
       if (withEvents) events.emplace(arguments->events);
       TraceWriter stateWriter(states.stream(), format, scene.world.groups);
       std::optional<EventWriter> eventWriter;

@@ -12,9 +12,9 @@ namespace offstage {
 
 /// A text output as a std::ostream: a file that appears whole or not at all, or standard output for "-".
 /// Writing throws Error as AtomicFile does (a closed pipe is Error(Transient)).
-class TextFile {
+class TextOutput {
 public:
-  explicit TextFile(const std::filesystem::path& path);
+  explicit TextOutput(const std::filesystem::path& path);
 
   [[nodiscard]] std::ostream& stream() { return stream_; }
   void commit(); ///< flushes, and puts the file under its name

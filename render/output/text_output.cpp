@@ -1,4 +1,4 @@
-#include "render/output/text_file.h"
+#include "render/output/text_output.h"
 
 #include "src/sim/error.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 } // namespace
 
-TextFile::TextFile(const std::filesystem::path& path) : buffer_(nullptr), stream_(nullptr) {
+TextOutput::TextOutput(const std::filesystem::path& path) : buffer_(nullptr), stream_(nullptr) {
   if (path != "-") {
     file_.emplace(path);
     buffer_ = Buffer(&*file_);
@@ -26,7 +26,7 @@ TextFile::TextFile(const std::filesystem::path& path) : buffer_(nullptr), stream
   stream_.exceptions(std::ios::badbit); // lets an Error thrown below reach the caller
 }
 
-void TextFile::commit() {
+void TextOutput::commit() {
   stream_.flush();
   if (file_)
     file_->commit();
@@ -34,7 +34,7 @@ void TextFile::commit() {
     throwPipeError();
 }
 
-std::streamsize TextFile::Buffer::xsputn(const char* text, std::streamsize size) {
+std::streamsize TextOutput::Buffer::xsputn(const char* text, std::streamsize size) {
   const auto bytes = static_cast<std::size_t>(size);
   if (file_ != nullptr)
     file_->write(text, bytes);
@@ -43,7 +43,7 @@ std::streamsize TextFile::Buffer::xsputn(const char* text, std::streamsize size)
   return size;
 }
 
-TextFile::Buffer::int_type TextFile::Buffer::overflow(int_type character) {
+TextOutput::Buffer::int_type TextOutput::Buffer::overflow(int_type character) {
   if (traits_type::eq_int_type(character, traits_type::eof())) return traits_type::not_eof(character);
   const char one = traits_type::to_char_type(character);
   xsputn(&one, 1);
