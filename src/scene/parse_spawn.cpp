@@ -99,17 +99,17 @@ public:
   bool readPair(std::string_view pairKey, std::string_view firstKey, std::string_view secondKey,
                 Range allowed, const AffineMap& firstMap, const AffineMap& secondMap, Number& first,
                 Number& second) const {
-    if (reader_.has(pairKey)) {
-      if (!reader_.rejectBoth(firstKey, pairKey)) reader_.rejectBoth(secondKey, pairKey);
-      const auto pair = reader_.pair(pairKey, allowed);
-      first = ConstantNumber{firstMap(pair[0])};
-      second = ConstantNumber{secondMap(pair[1])};
-      if (!isFinite(first) || !isFinite(second)) reader_.reject(pairKey, "is too large for this [view]");
-      return true;
-    }
+    // Read even beside the pair, so that what is wrong with them is said too.
     first = read(firstKey, allowed, firstMap, 0.0);
     second = read(secondKey, allowed, secondMap, 0.0);
-    return false;
+    if (!reader_.has(pairKey)) return false;
+    reader_.rejectBoth(firstKey, pairKey);
+    reader_.rejectBoth(secondKey, pairKey);
+    const auto pair = reader_.pair(pairKey, allowed);
+    first = ConstantNumber{firstMap(pair[0])};
+    second = ConstantNumber{secondMap(pair[1])};
+    if (!isFinite(first) || !isFinite(second)) reader_.reject(pairKey, "is too large for this [view]");
+    return true;
   }
 
   /// The same for a pair that must be given in one of its forms.

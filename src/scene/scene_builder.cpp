@@ -102,7 +102,7 @@ std::optional<std::filesystem::path> SceneBuilder::readFile(const TableReader& r
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (status.type() == std::filesystem::file_type::not_found) {
-    return reject(fmt::format("which does not exist ({})", quotedText(file.string())));
+    return reject("which does not exist beside the scene");
   }
   if (!std::filesystem::status_known(status)) return reject("which cannot be looked up: " + error.message());
   if (!std::filesystem::is_regular_file(status)) return reject("which is no regular file");

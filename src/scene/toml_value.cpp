@@ -76,7 +76,7 @@ std::optional<TomlValue> parseToml(std::string_view text, const std::string& fil
     return converted(toml::parse(text, std::string_view(file)));
   } catch (const toml::parse_error& problem) {
     const toml::source_position begin = problem.source().begin;
-    error = {{file, begin.line, begin.column}, std::string(problem.description())};
+    error = {{file, begin.line, begin.column}, "not valid TOML: " + printable(problem.description())};
     return std::nullopt;
   }
 }
