@@ -23,7 +23,7 @@ std::vector<Diagnostic> problemsOf(const std::filesystem::path& file) {
     return error.diagnostics();
   } catch (const Error& error) {
     if (error.code() != ExitCode::BadInput) throw;
-    return {{{file.string(), 0, 0}, error.what()}};
+    return {Diagnostic::ofFile(file.string(), error.what())};
   }
 }
 

@@ -16,6 +16,13 @@ std::string joined(const std::vector<Diagnostic>& diagnostics) {
 
 } // namespace
 
+Diagnostic Diagnostic::ofFile(const std::string& file, const std::string& message) {
+  Diagnostic diagnostic;
+  diagnostic.where.file = file;
+  diagnostic.message = message;
+  return diagnostic;
+}
+
 std::string Diagnostic::text() const {
   std::string text = where.file;
   if (where.line > 0) text += ':' + std::to_string(where.line) + ':' + std::to_string(where.column);

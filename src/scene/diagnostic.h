@@ -20,6 +20,9 @@ struct Diagnostic {
   SourceLocation where;
   std::string message; ///< names the key, what was given, what is allowed
 
+  /// About a file as a whole.
+  static Diagnostic ofFile(const std::string& file, const std::string& message);
+
   /// "file:line:column: error: message", the form that editors and CI logs make clickable.
   [[nodiscard]] std::string text() const;
 };

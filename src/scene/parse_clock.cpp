@@ -32,7 +32,7 @@ std::optional<Clock> readRecording(const std::filesystem::path& file, ErrorList&
   } catch (const SceneError& problems) {
     errors.add(problems);
   } catch (const Error& problem) {
-    errors.add(SceneError({{{file.string(), 0, 0}, problem.what()}}));
+    errors.add(SceneError({Diagnostic::ofFile(file.string(), problem.what())}));
   }
   return std::nullopt;
 }
