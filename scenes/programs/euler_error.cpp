@@ -6,14 +6,14 @@ using namespace offstage;
 
 struct EulerError : Exercise {
   const Vec2 start0{24.0, 440.0};
-  const Vec2 velocity0{26.0, -200.0};
-  const Vec2 gravity{0.0, 50.0};
+  const Vec2 velocity0{72.0, -440.0};
+  const Vec2 gravity{0.0, 240.0};
 
   Circle euler{start0.x(), start0.y(), 7.0, Color::rgb(0xd6, 0x27, 0x28)};
   Circle exact{start0.x(), start0.y(), 11.0};
   Vec2 velocity = velocity0;
 
-  Settings settings() const override { return {.title = "Euler's error", .fps = 30.0, .duration = 8.0}; }
+  Settings settings() const override { return {.title = "Euler's error", .fps = 30.0, .duration = 6.0}; }
 
   void start(Stage& stage) override {
     exact.setNoFill();
