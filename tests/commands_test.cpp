@@ -2,32 +2,18 @@
 #include "tests/support/temp_dir.h"
 
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace offstage::testing {
+namespace offstage::test {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::StartsWith;
-
-std::string slurp(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-void spit(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream(file, std::ios::binary) << text;
-}
-
-std::size_t filesIn(const std::filesystem::path& folder) {
-  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
-}
 
 TEST(Commands, HelpOfEveryVerbGoesToStdoutWithStatus0) {
   for (const std::vector<std::string>& verb :
@@ -43,7 +29,7 @@ TEST(Commands, HelpOfEveryVerbGoesToStdoutWithStatus0) {
 
 TEST(Commands, BadUsageIsStatus2WithAMessageAndNoOutput) {
   const TempDir dir;
-  const std::string out = (dir.path() / "x.mp4").string();
+  const std::string out = (dir / "x.mp4").string();
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
       {{}, "subcommand"},
       {{"rendr"}, "rendr"},
@@ -62,18 +48,17 @@ TEST(Commands, BadUsageIsStatus2WithAMessageAndNoOutput) {
       {{"render", scene("fall"), "-o", out, "--from", "5", "--to", "4"}, "5"},
       {{"render", scene("fall"), "-o", out, "--to", "99"}, "--to 99"},
       {{"render", scene("fall"), "-o", out, "--progress", "loud"}, "--progress"},
-      {{"render", scene("fall"), "-o", out, "--dt", (dir.path() / "none.dt").string()}, "none.dt"},
-      {{"render", (dir.path() / "none.toml").string(), "-o", out}, "none.toml"},
-      {{"render", scene("fall"), "-o", (dir.path() / "x.txt").string()}, ".txt"},
-      {{"render", scene("fall"), "-o", (dir.path() / "x.png").string()}, ".png"},
-      {{"render", scene("fall"), "-o", (dir.path() / "missing" / "x.mp4").string()}, "missing"},
+      {{"render", scene("fall"), "-o", out, "--dt", (dir / "none.dt").string()}, "none.dt"},
+      {{"render", (dir / "none.toml").string(), "-o", out}, "none.toml"},
+      {{"render", scene("fall"), "-o", (dir / "x.txt").string()}, ".txt"},
+      {{"render", scene("fall"), "-o", (dir / "x.png").string()}, ".png"},
+      {{"render", scene("fall"), "-o", (dir / "missing" / "x.mp4").string()}, "missing"},
       {{"render", scene("fall"), "-o", dir.path().string()}, dir.path().string()},
       {{"still", scene("fall"), "-o", out, "--at", "1"}, ".png"},
-      {{"still", scene("fall"), "-o", (dir.path() / "x.png").string(), "--at", "11"}, "--at 11"},
-      {{"still", scene("fall"), "-o", (dir.path() / "x.png").string(), "--at", "-1"}, "--at"},
-      {{"still", scene("fall"), "-o", (dir.path() / "x.png").string(), "--at", "1", "--strobe", "0"},
-       "--strobe"},
-      {{"trace", scene("fall"), "-o", (dir.path() / "x.txt").string()}, ".csv"},
+      {{"still", scene("fall"), "-o", (dir / "x.png").string(), "--at", "11"}, "--at 11"},
+      {{"still", scene("fall"), "-o", (dir / "x.png").string(), "--at", "-1"}, "--at"},
+      {{"still", scene("fall"), "-o", (dir / "x.png").string(), "--at", "1", "--strobe", "0"}, "--strobe"},
+      {{"trace", scene("fall"), "-o", (dir / "x.txt").string()}, ".csv"},
       {{"trace", scene("fall"), "-o", "-", "--events", "-"}, "same place"},
       {{"check"}, "SCENE"},
   };
@@ -83,24 +68,24 @@ TEST(Commands, BadUsageIsStatus2WithAMessageAndNoOutput) {
     EXPECT_EQ(result.status, 2) << shown;
     EXPECT_THAT(result.err, HasSubstr(text)) << shown;
     EXPECT_EQ(result.out, "") << shown;
-    EXPECT_EQ(filesIn(dir.path()), 0U) << shown;
+    EXPECT_THAT(dir.names(), IsEmpty()) << shown;
   }
 }
 
 TEST(Commands, RenderSaysWhatItMadeAndNothingElseWhenPiped) {
   const TempDir dir;
-  const std::string out = (dir.path() / "fall.mp4").string();
+  const std::string out = (dir / "fall.mp4").string();
   const ProcessResult result = offstage({"render", scene("fall"), "-o", out, "--duration", "0.5"});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, StartsWith(out + ": 30 frames, 0.500 s, in "));
   EXPECT_EQ(result.err, "");
-  EXPECT_EQ(filesIn(dir.path()), 1U);
+  EXPECT_THAT(dir.names(), ElementsAre("fall.mp4"));
 }
 
 TEST(Commands, RenderTellsProgressAsJsonLines) {
   const TempDir dir;
-  const ProcessResult result = offstage({"render", scene("fall"), "-o", (dir.path() / "f.mp4").string(),
-                                         "--duration", "0.2", "--progress", "json"});
+  const ProcessResult result = offstage(
+      {"render", scene("fall"), "-o", (dir / "f.mp4").string(), "--duration", "0.2", "--progress", "json"});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.err, HasSubstr("\"event\":\"done\",\"frame\":12,\"frames\":12,"));
 }
@@ -126,39 +111,38 @@ TEST(Commands, CtrlCEndsWith130AndLeavesNothing) {
   const TempDir dir;
   ProcessOptions options;
   options.interruptAfterMs = 700;
-  const ProcessResult result =
-      offstage({"render", scene("exercise2_bounce"), "-o", (dir.path() / "x.mp4").string(), "--duration",
-                "3000", "--size", "1280x960"},
-               options);
+  const ProcessResult result = offstage({"render", scene("exercise2_bounce"), "-o", (dir / "x.mp4").string(),
+                                         "--duration", "3000", "--size", "1280x960"},
+                                        options);
   EXPECT_EQ(result.status, 130) << result.err;
   EXPECT_THAT(result.err, HasSubstr("interrupted"));
-  EXPECT_EQ(filesIn(dir.path()), 0U);
+  EXPECT_THAT(dir.names(), IsEmpty());
 }
 
 TEST(Commands, AFailedRenderKeepsTheFileThatWasThere) {
   const TempDir dir;
-  const std::filesystem::path out = dir.path() / "x.mp4";
-  spit(out, "precious");
-  spit(dir.path() / "bad.toml", "[[body]]\nshape = \"circle\"\ncenter = [1, 2]\nradius = -3\n");
-  const ProcessResult result = offstage({"render", (dir.path() / "bad.toml").string(), "-o", out.string()});
+  const std::filesystem::path out = dir / "x.mp4";
+  writeFile(out, "precious");
+  writeFile(dir / "bad.toml", "[[body]]\nshape = \"circle\"\ncenter = [1, 2]\nradius = -3\n");
+  const ProcessResult result = offstage({"render", (dir / "bad.toml").string(), "-o", out.string()});
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, HasSubstr("bad.toml:4:"));
-  EXPECT_EQ(slurp(out), "precious");
+  EXPECT_EQ(readFile(out), "precious");
 }
 
 TEST(Commands, HashFileHasALineAFrameAndDoesNotDependOnTheOutput) {
   const TempDir dir;
-  const std::filesystem::path a = dir.path() / "a.txt";
-  const std::filesystem::path b = dir.path() / "b.txt";
+  const std::filesystem::path a = dir / "a.txt";
+  const std::filesystem::path b = dir / "b.txt";
   ASSERT_EQ(offstage({"render", scene("exercise2_bounce"), "--duration", "2", "--hash", a.string()}).status,
             0);
   ASSERT_EQ(offstage({"render", scene("exercise2_bounce"), "--duration", "2", "--hash", b.string(), "-o",
-                      (dir.path() / "x.mp4").string()})
+                      (dir / "x.mp4").string()})
                 .status,
             0);
-  const std::string text = slurp(a);
+  const std::string text = readFile(a);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 120);
-  EXPECT_EQ(text, slurp(b));
+  EXPECT_EQ(text, readFile(b));
   std::istringstream lines(text);
   std::string frame;
   std::string state;
@@ -174,11 +158,11 @@ TEST(Commands, HashFileHasALineAFrameAndDoesNotDependOnTheOutput) {
 TEST(Commands, PhysicsDoesNotDependOnSizeAndPixelsDo) {
   const TempDir dir;
   const auto hashes = [&](const std::vector<std::string>& extra) {
-    std::vector<std::string> arguments{"render", scene("exercise1_bounce"),      "--duration", "0.5",
-                                       "--hash", (dir.path() / "h.txt").string()};
+    std::vector<std::string> arguments{"render", scene("exercise1_bounce"), "--duration", "0.5",
+                                       "--hash", (dir / "h.txt").string()};
     arguments.insert(arguments.end(), extra.begin(), extra.end());
     EXPECT_EQ(offstage(arguments).status, 0);
-    std::istringstream lines(slurp(dir.path() / "h.txt"));
+    std::istringstream lines(readFile(dir / "h.txt"));
     std::pair<std::string, std::string> all;
     std::string frame;
     std::string state;
@@ -199,11 +183,11 @@ TEST(Commands, PhysicsDoesNotDependOnSizeAndPixelsDo) {
 
 TEST(Commands, StillDrawsTheFrameOnShow) {
   const TempDir dir;
-  const std::string out = (dir.path() / "still.png").string();
+  const std::string out = (dir / "still.png").string();
   const ProcessResult result = offstage({"still", scene("fall"), "--at", "1.51", "-o", out});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("still.png: 640x480, frame 90 at 1.5 s"));
-  EXPECT_THAT(slurp(out), StartsWith("\x89PNG\r\n\x1a\n"));
+  EXPECT_THAT(readFile(out), StartsWith("\x89PNG\r\n\x1a\n"));
 }
 
 TEST(Commands, TraceGoesToStdoutByDefaultWithFrame0AndTheLastState) {
@@ -216,22 +200,22 @@ TEST(Commands, TraceGoesToStdoutByDefaultWithFrame0AndTheLastState) {
 
 TEST(Commands, TraceWritesEventsAndJsonLines) {
   const TempDir dir;
-  const std::filesystem::path events = dir.path() / "events.csv";
-  const std::filesystem::path states = dir.path() / "x.jsonl";
+  const std::filesystem::path events = dir / "events.csv";
+  const std::filesystem::path states = dir / "x.jsonl";
   const ProcessResult result =
       offstage({"trace", scene("exercise1_bounce"), "-o", states.string(), "--events", events.string()});
   EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_THAT(slurp(events), StartsWith("frame,event,id1,id2,time,p,q\n"));
-  EXPECT_THAT(slurp(events), HasSubstr(",bottom,0,-1,"));
-  EXPECT_THAT(slurp(states), StartsWith("{\"frame\":0,\"id\":0,\"time\":0,\"x\":320,"));
+  EXPECT_THAT(readFile(events), StartsWith("frame,event,id1,id2,time,p,q\n"));
+  EXPECT_THAT(readFile(events), HasSubstr(",bottom,0,-1,"));
+  EXPECT_THAT(readFile(states), StartsWith("{\"frame\":0,\"id\":0,\"time\":0,\"x\":320,"));
 }
 
 TEST(Commands, CheckListsEveryErrorOfEveryFile) {
   const TempDir dir;
-  spit(dir.path() / "a.toml", "durations = 3\n[[body]]\nshape = \"circle\"\ncenter = [1, 2]\nradius = -3\n");
-  spit(dir.path() / "b.toml", "[clock]\nfps = 0\n");
-  const std::string a = (dir.path() / "a.toml").string();
-  const std::string b = (dir.path() / "b.toml").string();
+  writeFile(dir / "a.toml", "durations = 3\n[[body]]\nshape = \"circle\"\ncenter = [1, 2]\nradius = -3\n");
+  writeFile(dir / "b.toml", "[clock]\nfps = 0\n");
+  const std::string a = (dir / "a.toml").string();
+  const std::string b = (dir / "b.toml").string();
   const ProcessResult result = offstage({"check", a, scene("fall"), b});
   EXPECT_EQ(result.status, 2);
   EXPECT_EQ(result.out, scene("fall") + ": ok\n");
@@ -243,10 +227,10 @@ TEST(Commands, CheckListsEveryErrorOfEveryFile) {
 
 TEST(Commands, CheckDecodesImages) {
   const TempDir dir;
-  spit(dir.path() / "broken.png", "this is no picture");
-  spit(dir.path() / "a.toml",
-       "[[body]]\nshape = \"circle\"\ncenter = [1, 2]\nradius = 3\nfill = { image = \"broken.png\" }\n");
-  const ProcessResult result = offstage({"check", (dir.path() / "a.toml").string()});
+  writeFile(dir / "broken.png", "this is no picture");
+  writeFile(dir / "a.toml",
+            "[[body]]\nshape = \"circle\"\ncenter = [1, 2]\nradius = 3\nfill = { image = \"broken.png\" }\n");
+  const ProcessResult result = offstage({"check", (dir / "a.toml").string()});
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, HasSubstr("a.toml:5:"));
   EXPECT_THAT(result.err, HasSubstr("broken.png"));
@@ -254,8 +238,8 @@ TEST(Commands, CheckDecodesImages) {
 
 TEST(Commands, CheckAsJson) {
   const TempDir dir;
-  spit(dir.path() / "b.toml", "[clock]\nfps = 0\n");
-  const ProcessResult result = offstage({"check", "--json", scene("fall"), (dir.path() / "b.toml").string()});
+  writeFile(dir / "b.toml", "[clock]\nfps = 0\n");
+  const ProcessResult result = offstage({"check", "--json", scene("fall"), (dir / "b.toml").string()});
   EXPECT_EQ(result.status, 2);
   EXPECT_EQ(result.err, "");
   EXPECT_THAT(result.out, HasSubstr("\"ok\": true, \"errors\": []}"));
@@ -273,14 +257,14 @@ TEST(Commands, ProgramsInCppMoveAndLookExactlyAsTheirScenes) {
   const TempDir dir;
   for (const std::string name : {"fall", "exercise1_bounce", "spawn", "exercise2_spawn_bounce",
                                  "exercise2_vanish", "exercise2_bounce", "projectiles"}) {
-    const std::filesystem::path ofScene = dir.path() / "scene.txt";
-    const std::filesystem::path ofProgram = dir.path() / "program.txt";
+    const std::filesystem::path ofScene = dir / "scene.txt";
+    const std::filesystem::path ofProgram = dir / "program.txt";
     ASSERT_EQ(offstage({"render", scene(name), "--hash", ofScene.string()}).status, 0);
     const ProcessResult result =
         runProcess({OFFSTAGE_BINARY_DIR "/programs/" + name, "--hash", ofProgram.string()});
     ASSERT_EQ(result.status, 0) << result.err;
-    std::istringstream expected(slurp(ofScene));
-    std::istringstream actual(slurp(ofProgram));
+    std::istringstream expected(readFile(ofScene));
+    std::istringstream actual(readFile(ofProgram));
     std::string expectedLine;
     std::string actualLine;
     while (std::getline(expected, expectedLine)) {
@@ -292,4 +276,4 @@ TEST(Commands, ProgramsInCppMoveAndLookExactlyAsTheirScenes) {
 }
 
 } // namespace
-} // namespace offstage::testing
+} // namespace offstage::test

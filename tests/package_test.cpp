@@ -2,25 +2,16 @@
 #include "tests/support/temp_dir.h"
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
-namespace offstage::testing {
+namespace offstage::test {
 namespace {
-
-std::string slurp(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 TEST(Package, AnotherProjectFindsBuildsAndRunsTheInstalledLibrary) {
   const TempDir dir;
-  const std::string prefix = (dir.path() / "prefix").string();
-  const std::string build = (dir.path() / "build").string();
+  const std::string prefix = (dir / "prefix").string();
+  const std::string build = (dir / "build").string();
   const ProcessResult installed = runProcess({"cmake", "--install", OFFSTAGE_BINARY_DIR, "--prefix", prefix});
   ASSERT_EQ(installed.status, 0) << installed.err;
   const ProcessResult configured =
@@ -30,15 +21,15 @@ TEST(Package, AnotherProjectFindsBuildsAndRunsTheInstalledLibrary) {
   const ProcessResult built = runProcess({"cmake", "--build", build});
   ASSERT_EQ(built.status, 0) << built.out << built.err;
 
-  const std::string ofStudent = (dir.path() / "student.txt").string();
-  const std::string ofScene = (dir.path() / "scene.txt").string();
+  const std::string ofStudent = (dir / "student.txt").string();
+  const std::string ofScene = (dir / "scene.txt").string();
   const ProcessResult ran = runProcess({build + "/student", "--hash", ofStudent});
   ASSERT_EQ(ran.status, 0) << ran.err;
   const ProcessResult program =
       runProcess({prefix + "/bin/offstage", "render", scene("exercise1_bounce"), "--hash", ofScene});
   ASSERT_EQ(program.status, 0) << program.err;
-  EXPECT_EQ(slurp(ofStudent), slurp(ofScene));
+  EXPECT_EQ(readFile(ofStudent), readFile(ofScene));
 }
 
 } // namespace
-} // namespace offstage::testing
+} // namespace offstage::test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace offstage::testing {
+namespace offstage::test {
 namespace {
 
 /// A compiler and an optimisation level to build the simulation with once more.
@@ -63,4 +63,4 @@ INSTANTIATE_TEST_SUITE_P(Compilers, Parity,
                          [](const auto& variant) { return variant.param.name; });
 
 } // namespace
-} // namespace offstage::testing
+} // namespace offstage::test

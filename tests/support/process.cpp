@@ -11,7 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace offstage::testing {
+namespace offstage::test {
 namespace {
 
 struct Pipe {
@@ -106,4 +106,4 @@ std::string scene(const std::string& name) {
   return OFFSTAGE_SOURCE_DIR "/scenes/" + name + ".toml";
 }
 
-} // namespace offstage::testing
+} // namespace offstage::test

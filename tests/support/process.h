@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace offstage::testing {
+namespace offstage::test {
 
 /// What a program left behind.
 struct ProcessResult {
@@ -31,4 +31,4 @@ ProcessResult offstage(std::vector<std::string> arguments, const ProcessOptions&
 /// A scene of the source tree, such as scene("fall").
 std::string scene(const std::string& name);
 
-} // namespace offstage::testing
+} // namespace offstage::test
