@@ -30,7 +30,9 @@ std::uint32_t Painter::addLook(const Look& look) {
   return static_cast<std::uint32_t>(looks_.size() - 1);
 }
 
-void Painter::setLook(std::uint32_t index, const Look& look) { looks_.at(index) = prepare(look); }
+void Painter::setLook(std::uint32_t index, const Look& look) {
+  looks_.at(index) = prepare(look);
+}
 
 Painter::PreparedLook Painter::prepare(const Look& look) {
   PreparedLook prepared;

@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cstdio>
 #include <exception>
-#include <map>
 #include <new>
 
 #include <CLI/CLI.hpp>
@@ -14,10 +13,6 @@
 namespace offstage {
 namespace {
 
-std::string wrongNumber(const std::string& text) {
-  return fmt::format("'{}' is not a number", text);
-}
-
 /// CLI11's own conversion takes "1e999", "nan" and trailing text in some versions; numbers here are finite
 /// and whole words.
 template <class T>
@@ -25,17 +20,26 @@ void addNumber(CLI::App& app, const char* name, std::optional<T>& target, const 
                const char* help) {
   app.add_option_function<std::string>(
          name,
-         [&target](const std::string& text) {
+         [&target, name](const std::string& text) {
            T value{};
            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-           if (error != std::errc{} || end != text.data() + text.size())
-             throw CLI::ValidationError(wrongNumber(text));
-           if constexpr (std::is_floating_point_v<T>)
-             if (!std::isfinite(value)) throw CLI::ValidationError(fmt::format("'{}' is not finite", text));
+           bool good = error == std::errc{} && end == text.data() + text.size();
+           if constexpr (std::is_floating_point_v<T>) good = good && std::isfinite(value);
+           if (!good)
+             throw Error(ExitCode::BadInput,
+                         fmt::format("{} '{}' is not {}", name, text,
+                                     std::is_integral_v<T> ? "a whole number" : "a finite number"));
            target = value;
          },
          help)
       ->type_name(type);
+}
+
+ProgressMode parseProgress(const std::string& text) {
+  if (text == "auto") return ProgressMode::Auto;
+  if (text == "json") return ProgressMode::Json;
+  if (text == "none") return ProgressMode::None;
+  throw Error(ExitCode::BadInput, fmt::format("--progress '{}' is not auto, json or none", text));
 }
 
 } // namespace
@@ -77,13 +81,10 @@ void addRenderOptions(CLI::App& app, RenderOptions& options) {
   addSceneOptions(app, options);
   addNumber(app, "--from", options.from, "S", "first simulated second to show");
   addNumber(app, "--to", options.to, "S", "simulated second at which to end");
-  const std::map<std::string, ProgressMode> modes{
-      {"auto", ProgressMode::Auto}, {"json", ProgressMode::Json}, {"none", ProgressMode::None}};
-  app.add_option("--progress", options.progress, "auto (a bar on a terminal), json (a line each), none")
-      ->transform(CLI::Transformer(modes))
-      ->check(CLI::IsMember(modes))
-      ->type_name("MODE")
-      ->default_str("auto");
+  app.add_option_function<std::string>(
+         "--progress", [&options](const std::string& text) { options.progress = parseProgress(text); },
+         "auto (a bar on a terminal), json (a line each), none")
+      ->type_name("MODE");
   app.add_option("--hash", options.hashFile, "write a line a frame: frame state-hash pixel-hash")
       ->type_name("FILE");
 }
