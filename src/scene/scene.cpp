@@ -7,6 +7,7 @@
 #include "src/scene/text_file.h"
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -89,7 +90,10 @@ void parseTables(SceneBuilder& builder, const TomlValue& root, const SceneOverri
   parseEach(builder, top, "spawn", parseSpawn);
   parseEach(builder, top, "launch", parseLaunch);
   parseEach(builder, top, "collide", parseCollide);
+  const std::size_t errorsBefore = builder.errors.count();
   parseEach(builder, top, "force", parseForce);
+  // Behind a wrong force, what has a closed form cannot be told.
+  if (builder.errors.count() == errorsBefore) checkExactBodies(builder, errorsBefore == 0);
 }
 
 } // namespace

@@ -68,4 +68,8 @@ void parseLaunch(SceneBuilder& builder, const TomlValue& table);
 void parseCollide(SceneBuilder& builder, const TomlValue& table);
 void parseForce(SceneBuilder& builder, const TomlValue& table);
 
+/// Reports each body, spawn and launch with the integrator "exact" whose motion has no closed form; after all
+/// tables. `startsAreKnown`: every body's numbers are right, so that its start can be judged too.
+void checkExactBodies(SceneBuilder& builder, bool startsAreKnown);
+
 } // namespace offstage
