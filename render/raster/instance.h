@@ -35,6 +35,7 @@ struct Instance {
   std::array<float, 4> inner{};         ///< the hole, in the same form; a box without one has low = high
   std::array<std::int32_t, 4> texels{}; ///< pattern: first texel in the store, width, height, 1 if it repeats
   std::array<float, 4> texelMap{};      ///< pattern: texel coordinate at `origin`, then texels per px
+  std::array<float, 2> window{1.0F, 1.0F}; ///< pattern: texels to average along each axis, 1 … 2
 };
 
 /// The shape of a primitive made ready: quad, origin, edges and colour are set. Nothing when it touches no

@@ -7,7 +7,7 @@ namespace offstage {
 namespace {
 
 constexpr std::size_t kFirstCapacity = 256;
-constexpr GLuint kAttributeCount = 7; // the locations in shaders.cpp
+constexpr GLuint kAttributeCount = 8; // the locations in shaders.cpp
 
 } // namespace
 
@@ -51,6 +51,7 @@ void InstanceBuffer::draw(std::size_t first, std::size_t count) const {
   gl_.vertexAttribPointer(4, 4, GL_FLOAT, GL_FALSE, kStride, at(offsetof(Instance, inner)));
   gl_.vertexAttribIPointer(5, 4, GL_INT, kStride, at(offsetof(Instance, texels)));
   gl_.vertexAttribPointer(6, 4, GL_FLOAT, GL_FALSE, kStride, at(offsetof(Instance, texelMap)));
+  gl_.vertexAttribPointer(7, 2, GL_FLOAT, GL_FALSE, kStride, at(offsetof(Instance, window)));
   gl_.drawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count));
 }
 

@@ -21,6 +21,7 @@ layout(location = 3) in vec4 outer;
 layout(location = 4) in vec4 inner;
 layout(location = 5) in ivec4 texels;
 layout(location = 6) in vec4 texelMap;
+layout(location = 7) in vec2 window;
 
 uniform vec2 clipPerPixel; // 2/size
 
@@ -30,7 +31,7 @@ flat out vec4 vInner;
 #endif
 flat out vec2 vOrigin;
 #ifdef PATTERN
-flat out float vAlpha;
+flat out vec3 vWindowAlpha;
 flat out ivec4 vTexels;
 flat out vec4 vTexelMap;
 #else
@@ -48,7 +49,7 @@ void main() {
   vOrigin = vec2(origin);
   float alpha = float(color.a) * (1.0 / 255.0);
 #ifdef PATTERN
-  vAlpha = alpha;
+  vWindowAlpha = vec3(window, alpha);
   vTexels = texels;
   vTexelMap = texelMap;
 #else
@@ -121,10 +122,9 @@ float insideBox(vec2 p, vec4 edges) {
 }
 )";
 
-/// The pattern's colour, premultiplied: the mean of the image, each texel a rectangle of its colour, over a
-/// window around the pixel's centre that is as large as the pixel or, if that is more, as one texel. The
-/// latter is bilinear interpolation; the former filters exactly by area. TAPS texels an axis are enough: 2
-/// when no axis is reduced, 3 when none is by more than 2.
+/// The pattern's colour, premultiplied: the mean of the image, each texel a rectangle of its colour, over the
+/// window (1 to 2 texels an axis) around the pixel's centre. A window of one texel is bilinear interpolation.
+/// TAPS texels an axis are enough: 2 for windows of one texel, else 3.
 constexpr const char* kPattern = R"(
 uniform samplerBuffer store;
 
@@ -140,7 +140,7 @@ int place(int i, int count) {
 
 vec4 pattern(vec2 p) {
   vec2 at = vTexelMap.xy + p * vTexelMap.zw;
-  vec2 window = max(vTexelMap.zw, 1.0);
+  vec2 window = vWindowAlpha.xy;
   vec2 low = at - 0.5 * window;
   vec2 first = floor(low);
   vec2 start = low - first; // 0 … 1 into the first texel
@@ -158,7 +158,7 @@ vec4 pattern(vec2 p) {
     for (int i = 0; i < TAPS; ++i) row += texel(place(base.x + i, vTexels.y), y) * weights[i].x;
     sum += row * weights[j].y;
   }
-  return sum * vAlpha;
+  return sum * vWindowAlpha.z;
 }
 )";
 
@@ -169,7 +169,7 @@ flat in vec4 vInner;
 #endif
 flat in vec2 vOrigin;
 #ifdef PATTERN
-flat in float vAlpha;
+flat in vec3 vWindowAlpha;
 flat in ivec4 vTexels;
 flat in vec4 vTexelMap;
 #else

@@ -11,8 +11,8 @@ namespace offstage {
 /// Where a pixel's colour comes from.
 enum class PaintSource : std::uint8_t {
   Color,   ///< Instance::color
-  Pattern, ///< an image drawn at its size or larger: 2×2 texels a pixel
-  Reduced, ///< an image drawn smaller (down to half a level's size): 3×3 texels a pixel
+  Pattern, ///< an image, interpolated between 2×2 texels
+  Reduced, ///< an image drawn much smaller, averaged over up to 3×3 texels
 };
 inline constexpr std::size_t kPaintSourceCount = 3;
 
