@@ -5,7 +5,6 @@
 #include "render/output/verify.h"
 #include "render/output/yuv.h"
 
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -20,15 +19,21 @@ constexpr AVRational kNominalRate{60, 1};
 /// Numerator and denominator of a frame rate, at most: 30000/1001 and its kin are exact, and so are rates
 /// with up to five decimals below 10.
 constexpr int kMostRateTerm = 1001000;
+constexpr double kLeastFps = 0.001;
+constexpr double kMostFps = 1000000.0;
+/// The longest that .mp4 can show a frame is 2^31 − 1 ticks, 2147 s at a microsecond.
+constexpr std::int64_t kMostTicks = 2147483647;
+/// x264's limit.
+constexpr int kMostSide = 16384;
 
 /// A constant rate as a fraction; 0/1 when the rate is variable.
 AVRational frameRateOf(double fps) {
   if (fps == 0.0) return {0, 1};
-  const AVRational rate = std::isfinite(fps) && fps > 0.0 ? av_d2q(fps, kMostRateTerm) : AVRational{0, 1};
-  if (rate.num < 1 || rate.den < 1 || std::abs(av_q2d(rate) / fps - 1.0) > 1e-6) {
-    throw Error(ExitCode::BadInput, fmt::format("a video cannot have {} frames a second", fps));
+  if (!(fps >= kLeastFps && fps <= kMostFps)) { // NaN too
+    throw Error(ExitCode::BadInput,
+                fmt::format("a video has {} to {} frames a second, not {}", kLeastFps, kMostFps, fps));
   }
-  return rate;
+  return av_d2q(fps, kMostRateTerm);
 }
 
 EncoderSettings settingsOf(const std::filesystem::path& path, Container container, const SinkFormat& format) {
@@ -39,6 +44,11 @@ EncoderSettings settingsOf(const std::filesystem::path& path, Container containe
             "{}: H.264 video has no transparency; use a PNG sequence (frames/%06d.png) or .raw, or an opaque "
             "background",
             quoted(path)));
+  }
+  if (format.width > kMostSide || format.height > kMostSide) {
+    throw Error(ExitCode::BadInput,
+                fmt::format("{}: H.264 holds pictures of at most {} px a side, not {} × {}", quoted(path),
+                            kMostSide, format.width, format.height));
   }
   const AVRational rate = frameRateOf(format.fps);
   EncoderSettings settings;
@@ -81,17 +91,34 @@ VideoSink::Span VideoSink::spanOf(const FrameTiming& timing) const {
           av_rescale_q(timing.end - origin_, kNanosecond, settings_.timeBase)};
 }
 
-void VideoSink::write(const Frame& frame, const FrameTiming& timing) {
-  requireFrameSize(frame, format_.width, format_.height);
-  if (!began_) origin_ = timing.start;
-  const Span span = spanOf(timing);
-  if (span.end < span.start || (began_ && span.start < last_.end)) {
+void VideoSink::requireInOrder(const FrameTiming& timing) const {
+  if (timing.index != nextIndex_) {
+    throw Error(ExitCode::BadInput,
+                fmt::format("frame {} came where frame {} was due", timing.index, nextIndex_));
+  }
+  if (format_.fps > 0.0) return;
+  if (timing.end < timing.start || timing.start < 0 || (nextIndex_ > 0 && timing.start != nextStart_)) {
     throw Error(ExitCode::BadInput,
                 fmt::format("frame {} is shown from {} to {} ns, which does not follow the frame before it",
                             timing.index, timing.start, timing.end));
   }
-  began_ = true;
+}
+
+void VideoSink::write(const Frame& frame, const FrameTiming& timing) {
+  requireFrameSize(frame, format_.width, format_.height);
+  requireInOrder(timing);
+  if (nextIndex_ == 0) origin_ = timing.start;
+  nextIndex_ = timing.index + 1;
+  nextStart_ = timing.end;
+
+  const Span span = spanOf(timing);
   if (span.start == span.end) return;
+  if (span.end - span.start > kMostTicks) {
+    throw Error(ExitCode::BadInput,
+                fmt::format("frame {} lasts {:.0f} s; a video's frame lasts at most {:.0f} s", timing.index,
+                            static_cast<double>(timing.end - timing.start) * 1e-9,
+                            static_cast<double>(kMostTicks) * av_q2d(settings_.timeBase)));
+  }
   last_ = span;
   const auto take = [this](AVPacket& packet) { muxer_->write(packet); };
   if (const std::int64_t chunk = timing.index / kChunkFrames; chunk != chunk_) {

@@ -29,7 +29,8 @@ public:
   /// a file that cannot be written; Error(Environment) without an encoder.
   VideoSink(const std::filesystem::path& path, Container container, const SinkFormat& format);
 
-  /// Throws Error(BadInput) when the frame does not follow the one before it in time.
+  /// Throws Error(BadInput) unless frames are numbered 0, 1, 2 … and, of a variable rate, each begins when
+  /// the one before it ends.
   void write(const Frame& frame, const FrameTiming& timing) override;
   /// Ends the file, checks it (verify.h), and only then gives it its name. Throws Error(BadInput) when there
   /// was no frame.
@@ -43,6 +44,7 @@ private:
     std::int64_t end = 0;   ///< ticks
   };
   [[nodiscard]] Span spanOf(const FrameTiming& timing) const;
+  void requireInOrder(const FrameTiming& timing) const;
   void drainEncoder();
 
   SinkFormat format_;
@@ -53,8 +55,9 @@ private:
   std::int64_t chunk_ = 0;  ///< that encoder_ is for
   std::int64_t frames_ = 0; ///< encoded
   std::int64_t origin_ = 0; ///< ns: start of the first frame; of a variable rate
-  bool began_ = false;
-  Span last_;
+  std::int64_t nextIndex_ = 0;
+  std::int64_t nextStart_ = 0; ///< ns
+  Span last_;                  ///< of the last frame that was encoded
 };
 
 } // namespace offstage

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "render/output/sink.h"
+#include "render/raster/frame.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace offstage::test {
+
+/// A frame of one colour, opaque unless said otherwise.
+Frame flatFrame(int width, int height, std::array<std::uint8_t, 4> rgba);
+
+/// Every byte from a fixed sequence, alpha too.
+Frame noiseFrame(int width, int height, std::uint32_t seed);
+
+/// Frame `number` of a lecture-like animation: antialiased circles of several colours that move over white.
+Frame lectureFrame(int width, int height, int number);
+
+/// Timing of frame `index` at a constant rate.
+FrameTiming fixedTiming(std::int64_t index, double fps);
+
+/// The Error that `action` throws, as "CODE: MESSAGE"; "no error" if it throws none.
+std::string errorOf(const std::function<void()>& action);
+
+} // namespace offstage::test
