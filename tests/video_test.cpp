@@ -29,8 +29,6 @@ using test::errorOf;
 using test::flatFrame;
 using test::lectureFrame;
 using test::TempDir;
-using testing::AllOf;
-using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
@@ -48,6 +46,7 @@ SinkFormat formatOf(int width, int height, double fps) {
 /// Timings of frames that last so long, in ns.
 std::vector<FrameTiming> timingsOf(const std::vector<std::int64_t>& durations) {
   std::vector<FrameTiming> timings;
+  timings.reserve(durations.size());
   std::int64_t time = 0;
   for (const std::int64_t duration : durations) {
     timings.push_back({static_cast<std::int64_t>(timings.size()), time, time + duration});
@@ -59,6 +58,7 @@ std::vector<FrameTiming> timingsOf(const std::vector<std::int64_t>& durations) {
 /// A main loop's log: about 60 frames a second, never quite, and one hiccup.
 std::vector<std::int64_t> recordedDurations(int frames, int hiccupAt) {
   std::vector<std::int64_t> durations;
+  durations.reserve(static_cast<std::size_t>(frames));
   for (int k = 0; k < frames; ++k)
     durations.push_back(k == hiccupAt ? 250000000 : 16666667 + (k * 7919 % 997 - 498) * 1000);
   return durations;
@@ -74,6 +74,7 @@ void writeVariable(const fs::path& out, const SinkFormat& format, const std::vec
 
 void writeFixed(const fs::path& out, const SinkFormat& format, int frames) {
   std::vector<FrameTiming> timings;
+  timings.reserve(static_cast<std::size_t>(frames));
   for (int k = 0; k < frames; ++k) timings.push_back(test::fixedTiming(k, format.fps));
   writeVariable(out, format, timings);
 }

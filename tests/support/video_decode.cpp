@@ -1,6 +1,7 @@
 #include "tests/support/video_decode.h"
 
 #include "tests/support/temp_dir.h"
+#include "tests/support/test_frames.h"
 
 #include <algorithm>
 #include <array>
@@ -91,7 +92,7 @@ double chromaAt(const std::vector<std::uint8_t>& plane, int width, int height, i
   const auto sample = [&](double r, double c) {
     const int clampedRow = std::clamp(static_cast<int>(r), 0, height - 1);
     const int clampedColumn = std::clamp(static_cast<int>(c), 0, width - 1);
-    return static_cast<double>(plane[static_cast<std::size_t>(clampedRow * width + clampedColumn)]);
+    return static_cast<double>(plane[pixelIndex(clampedRow, width, clampedColumn)]);
   };
   const double x0 = std::floor(x);
   const double y0 = std::floor(y);
@@ -149,7 +150,7 @@ Frame toRgb(const DecodedVideo& video, std::size_t index) {
   frame.rgba.reserve(picture.y.size() * 4);
   for (int row = 0; row < video.height; ++row) {
     for (int column = 0; column < video.width; ++column) {
-      const double y = (picture.y[static_cast<std::size_t>(row * video.width + column)] - 16.0) / 219.0;
+      const double y = (picture.y[pixelIndex(row, video.width, column)] - 16.0) / 219.0;
       const double cb = (chromaAt(picture.u, video.width / 2, video.height / 2, row, column) - 128.0) / 224.0;
       const double cr = (chromaAt(picture.v, video.width / 2, video.height / 2, row, column) - 128.0) / 224.0;
       const double red = y + 1.5748 * cr;
@@ -168,9 +169,9 @@ double meanAbsoluteError(const Frame& a, const Frame& b) {
   double sum = 0.0;
   for (int row = 0; row < height; ++row) {
     for (int column = 0; column < width; ++column) {
-      for (int c = 0; c < 3; ++c) {
-        sum += std::abs(a.rgba[static_cast<std::size_t>((row * a.width + column) * 4 + c)] -
-                        b.rgba[static_cast<std::size_t>((row * b.width + column) * 4 + c)]);
+      for (std::size_t c = 0; c < 3; ++c) {
+        sum += std::abs(a.rgba[pixelIndex(row, a.width, column) * 4 + c] -
+                        b.rgba[pixelIndex(row, b.width, column) * 4 + c]);
       }
     }
   }
