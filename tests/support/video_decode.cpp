@@ -27,6 +27,8 @@ struct Free {
 };
 
 constexpr AVRational kNanosecond{1, 1000000000};
+/// The unit of AVFormatContext::duration.
+constexpr AVRational kLibavTick{1, AV_TIME_BASE};
 
 int require(int result, const char* what) {
   if (result >= 0) return result;
@@ -80,7 +82,7 @@ void describe(const AVFormatContext& format, const AVStream& stream, DecodedVide
   video.width = codec.width;
   video.height = codec.height;
   video.averageRate = av_q2d(stream.avg_frame_rate);
-  video.duration = av_rescale_q(format.duration, AV_TIME_BASE_Q, kNanosecond);
+  video.duration = av_rescale_q(format.duration, kLibavTick, kNanosecond);
   video.streamDuration =
       stream.duration == AV_NOPTS_VALUE ? -1 : av_rescale_q(stream.duration, stream.time_base, kNanosecond);
 }
