@@ -240,6 +240,7 @@ TEST(AtomicFile, SignalHandlerRemovesEveryTemporaryOfTheProcess) {
   EXPECT_EQ(inChild([&dir] {
               chdir(dir.path().c_str());
               std::vector<std::unique_ptr<AtomicFile>> files;
+              files.reserve(105);
               for (int i = 0; i < 100; ++i)
                 files.push_back(std::make_unique<AtomicFile>(fmt::format("f{}", i)));
               files[3]->commit();

@@ -37,10 +37,10 @@ struct Planes {
   int width = 0; ///< even
   int height = 0;
   [[nodiscard]] std::uint8_t luma(int row, int column) const {
-    return y[static_cast<std::size_t>(row * width + column)];
+    return y[test::pixelIndex(row, width, column)];
   }
   [[nodiscard]] std::size_t chroma(int row, int column) const {
-    return static_cast<std::size_t>(row * (width / 2) + column);
+    return test::pixelIndex(row, width / 2, column);
   }
 };
 
@@ -48,7 +48,7 @@ Planes convert(const Frame& frame) {
   Planes planes;
   planes.width = evenSize(frame.width);
   planes.height = evenSize(frame.height);
-  planes.y.assign(static_cast<std::size_t>(planes.width * planes.height), 0);
+  planes.y.assign(test::pixelIndex(planes.height, planes.width, 0), 0);
   planes.u.assign(planes.y.size() / 4, 0);
   planes.v.assign(planes.y.size() / 4, 0);
   Yuv420Converter converter;
@@ -60,7 +60,7 @@ Planes convert(const Frame& frame) {
 std::array<double, 3> pixel(const Frame& frame, int row, int column) {
   row = std::clamp(row, 0, frame.height - 1);
   column = std::clamp(column, 0, frame.width - 1);
-  const std::uint8_t* at = &frame.rgba[static_cast<std::size_t>((row * frame.width + column) * 4)];
+  const std::uint8_t* at = &frame.rgba[test::pixelIndex(row, frame.width, column) * 4];
   return {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
 }
 

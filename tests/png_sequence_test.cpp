@@ -19,7 +19,6 @@ using test::lectureFrame;
 using test::TempDir;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 using testing::StartsWith;
 
 SinkFormat formatOf(int width, int height) {

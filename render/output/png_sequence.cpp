@@ -33,7 +33,8 @@ PngSequenceSink::PngSequenceSink(const fs::path& pattern, const SinkFormat& form
 
 void PngSequenceSink::write(const Frame& frame, const FrameTiming& timing) {
   requireFrameSize(frame, format_.width, format_.height);
-  if (timing.index < 0) throw Error(ExitCode::BadInput, fmt::format("a frame has the number {}", timing.index));
+  if (timing.index < 0)
+    throw Error(ExitCode::BadInput, fmt::format("a frame has the number {}", timing.index));
   AtomicFile file(pattern_.path(timing.index));
   const std::span<const std::uint8_t> png = encoder_.encode(frame, format_.alpha);
   file.write(png.data(), png.size());

@@ -18,6 +18,11 @@ namespace offstage {
 
 namespace {
 
+/// The unit of AVFormatContext::duration.
+constexpr AVRational kLibavTick{1, AV_TIME_BASE};
+/// The coarsest unit of the containers: .mkv's.
+constexpr AVRational kMillisecond{1, 1000};
+
 struct CloseInput {
   void operator()(AVFormatContext* context) const { avformat_close_input(&context); }
 };
@@ -96,15 +101,15 @@ private:
     compare("range", nameOr(av_color_range_name(stream.color_range)), std::string_view("tv"));
     compare("chroma location", nameOr(av_chroma_location_name(stream.chroma_location)),
             std::string_view("left"));
-    compareTime("duration", format_->duration, AV_TIME_BASE_Q, expected_.end);
+    compareTime("duration", format_->duration, kLibavTick, expected_.end);
   }
 
   void compareTime(std::string_view what, std::int64_t found, AVRational foundBase, std::int64_t wanted) {
-    const AVRational tick = av_cmp_q(foundBase, {1, 1000}) > 0 ? foundBase : AVRational{1, 1000};
-    const AVRational tolerance = av_cmp_q(stream_->time_base, tick) > 0 ? stream_->time_base : tick;
+    const double tolerance = std::max({av_q2d(foundBase), av_q2d(stream_->time_base), av_q2d(kMillisecond)});
     const double difference = static_cast<double>(found) * av_q2d(foundBase) -
                               static_cast<double>(wanted) * av_q2d(expected_.timeBase);
-    if (std::abs(difference) <= av_q2d(tolerance) * 1.000001) return;
+    if (std::abs(difference) <= tolerance * (1.0 + 1e-6))
+      return; // the factor is for the doubles' own rounding
     compare(what, fmt::format("{:.6f} s", static_cast<double>(found) * av_q2d(foundBase)),
             fmt::format("{:.6f} s", static_cast<double>(wanted) * av_q2d(expected_.timeBase)));
   }

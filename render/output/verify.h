@@ -19,9 +19,9 @@ struct ExpectedVideo {
 
 /// Reopens a video file, reads all of it, decodes its first and its last frame, and compares what it finds
 /// with what it must be: H.264, High, yuv420p, BT.709 in limited range, chroma sited left; the number of
-/// frames, their size, the time of the first and the last, and the duration (to one tick of the file or a
-/// millisecond, the unit of .mkv, whichever is longer). Throws Error(Transient) that lists every difference;
-/// `name` is what messages call the file.
+/// frames, their size, the time of the first and the last, and the duration (to one tick of the file, or a
+/// millisecond where that is finer). Throws Error(Transient) that lists every difference; `name` is what
+/// messages call the file.
 void verifyVideo(const std::filesystem::path& file, const ExpectedVideo& expected,
                  const std::filesystem::path& name);
 

@@ -17,8 +17,9 @@ constexpr double kRed = 0.2126;
 constexpr double kBlue = 0.0722;
 constexpr double kGreen = 1.0 - kRed - kBlue;
 
+/// Rounded to the nearest 1/65536; 0 ≤ value < 1.
 constexpr std::uint16_t weight(double value) {
-  return static_cast<std::uint16_t>(value * 65536.0 + 0.5);
+  return static_cast<std::uint16_t>((static_cast<std::uint32_t>(value * 131072.0) + 1) / 2);
 }
 
 constexpr double kLuma = 219.0 / 255.0;

@@ -26,10 +26,7 @@ void drawCircle(Frame& frame, double x, double y, double radius, const std::arra
     for (int column = 0; column < frame.width; ++column) {
       const double coverage =
           std::clamp(radius + 0.5 - std::hypot(column + 0.5 - x, row + 0.5 - y), 0.0, 1.0);
-      std::uint8_t* pixel =
-          &frame.rgba[(static_cast<std::size_t>(row) * static_cast<std::size_t>(frame.width) +
-                       static_cast<std::size_t>(column)) *
-                      4];
+      std::uint8_t* pixel = &frame.rgba[pixelIndex(row, frame.width, column) * 4];
       for (std::size_t c = 0; c < 3; ++c) {
         pixel[c] = static_cast<std::uint8_t>(std::lround(pixel[c] + (color[c] - pixel[c]) * coverage));
       }

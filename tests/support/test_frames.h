@@ -4,11 +4,17 @@
 #include "render/raster/frame.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
 
 namespace offstage::test {
+
+/// Number of a pixel in rows of `width`.
+constexpr std::size_t pixelIndex(int row, int width, int column) {
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
+}
 
 /// A frame of one colour, opaque unless said otherwise.
 Frame flatFrame(int width, int height, std::array<std::uint8_t, 4> rgba);
