@@ -2,6 +2,7 @@
 #include "src/sim/world.h"
 #include "tests/support/oracle_case.h"
 #include "tests/support/reference_csv.h"
+#include "tests/support/sim_setup.h"
 
 #include <algorithm>
 #include <string>
@@ -70,12 +71,12 @@ WorldSetup integratorSetup(const std::string& problem) {
   } else if (problem == "oscillator") {
     body.position = Vec2(470, 240);
     body.velocity = Vec2(0, 100);
-    setup.forces.push_back({SpringForce{.to = {Vec2(320, 240), {}}, .stiffness = 4.0}, {}, {}});
+    addForce(setup, {SpringForce{.to = {Vec2(320, 240), {}}, .stiffness = 4.0}, {}, {}});
   } else {
     body.position = Vec2(470, 240);
     body.velocity = Vec2(0, 300);
-    setup.forces.push_back(
-        {AttractForce{.to = {Vec2(320, 240), {}}, .strength = 4.0 * 150.0 * 150.0 * 150.0}, {}, {}});
+    addForce(setup,
+             {AttractForce{.to = {Vec2(320, 240), {}}, .strength = 4.0 * 150.0 * 150.0 * 150.0}, {}, {}});
   }
   for (const Integrator method :
        {Integrator::ExplicitEuler, Integrator::SemiImplicitEuler, Integrator::Rk4, Integrator::Exact}) {

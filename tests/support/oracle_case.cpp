@@ -2,6 +2,7 @@
 
 #include "src/sim/random.h"
 #include "tests/support/reference_csv.h"
+#include "tests/support/sim_setup.h"
 
 #include <array>
 #include <sstream>
@@ -9,14 +10,6 @@
 
 namespace offstage::test {
 namespace {
-
-Body circle(double x, double y, double radius, const Vec2& velocity = Vec2::Zero()) {
-  Body body;
-  body.position = Vec2(x, y);
-  body.radius = radius;
-  body.velocity = velocity;
-  return body;
-}
 
 /// One circle a second at a random place, as the lecture's second example adds them.
 Spawner lectureSpawner() {
