@@ -104,8 +104,7 @@ Scene loadScene(const std::filesystem::path& file, const SceneOverrides& overrid
 
 Scene parseScene(std::string_view text, const std::filesystem::path& file, const SceneOverrides& overrides) {
   if (text.size() > kMaxSceneBytes) {
-    throw Error(ExitCode::BadInput,
-                fmt::format("{}: error: a scene may hold at most {} bytes", file.string(), kMaxSceneBytes));
+    throw SceneError(file.string(), fmt::format("a scene may hold at most {} bytes", kMaxSceneBytes));
   }
   Diagnostic syntaxError;
   const auto root = parseToml(text, file.string(), syntaxError);
