@@ -23,7 +23,7 @@ std::vector<Diagnostic> problemsOf(const std::filesystem::path& file) {
     return error.diagnostics();
   } catch (const Error& error) {
     if (error.code() != ExitCode::BadInput) throw;
-    return {Diagnostic::ofFile(file.string(), error.what())};
+    return SceneError(file.string(), error.what()).diagnostics();
   }
 }
 

@@ -26,14 +26,14 @@ void checkExactBodies(SceneBuilder& builder, bool startsAreKnown) {
   const WorldSetup& world = builder.scene.world;
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
     const Body& body = world.bodies[i];
-    if (body.integrator != Integrator::Exact || body.fixed) continue;
+    if (body.integrator != Integrator::Exact) continue;
     const auto problem =
         startsAreKnown ? closedFormProblem(world, body) : closedFormForceProblem(world, body);
     if (problem) reportProblem(builder, *builder.bodyTables[i], "[[body]]", *problem);
   }
   for (std::size_t i = 0; i < world.spawners.size(); ++i) {
     const Body& body = world.spawners[i].prototype;
-    if (body.integrator != Integrator::Exact || body.fixed) continue;
+    if (body.integrator != Integrator::Exact) continue;
     const auto problem = closedFormForceProblem(world, body);
     if (problem) reportProblem(builder, *builder.spawnTables[i], "[[spawn]]", *problem);
   }

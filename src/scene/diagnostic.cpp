@@ -16,13 +16,6 @@ std::string joined(const std::vector<Diagnostic>& diagnostics) {
 
 } // namespace
 
-Diagnostic Diagnostic::ofFile(const std::string& file, const std::string& message) {
-  Diagnostic diagnostic;
-  diagnostic.where.file = file;
-  diagnostic.message = message;
-  return diagnostic;
-}
-
 std::string Diagnostic::text() const {
   std::string text = where.file;
   if (where.line > 0) text += ':' + std::to_string(where.line) + ':' + std::to_string(where.column);
@@ -31,5 +24,12 @@ std::string Diagnostic::text() const {
 
 SceneError::SceneError(std::vector<Diagnostic> diagnostics)
     : Error(ExitCode::BadInput, joined(diagnostics)), diagnostics_(std::move(diagnostics)) {}
+
+SceneError::SceneError(std::string file, std::string message)
+    : Error(ExitCode::BadInput, file + ": error: " + message) {
+  Diagnostic& diagnostic = diagnostics_.emplace_back();
+  diagnostic.where.file = std::move(file);
+  diagnostic.message = std::move(message);
+}
 
 } // namespace offstage

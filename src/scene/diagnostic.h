@@ -20,9 +20,6 @@ struct Diagnostic {
   SourceLocation where;
   std::string message; ///< names the key, what was given, what is allowed
 
-  /// About a file as a whole.
-  static Diagnostic ofFile(const std::string& file, const std::string& message);
-
   /// "file:line:column: error: message", the form that editors and CI logs make clickable.
   [[nodiscard]] std::string text() const;
 };
@@ -32,6 +29,7 @@ struct Diagnostic {
 class SceneError : public Error {
 public:
   explicit SceneError(std::vector<Diagnostic> diagnostics);
+  SceneError(std::string file, std::string message); ///< about the file as a whole
   [[nodiscard]] const std::vector<Diagnostic>& diagnostics() const noexcept { return diagnostics_; }
 
 private:

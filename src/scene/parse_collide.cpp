@@ -1,5 +1,7 @@
 #include "src/scene/scene_builder.h"
 
+#include <algorithm>
+
 #include <fmt/core.h>
 
 namespace offstage {
@@ -57,16 +59,12 @@ void parseCollide(SceneBuilder& builder, const TomlValue& table) {
   rejectWhatTheResponseLacks(reader, rule);
   if (!groupsKnown) return;
 
-  for (std::size_t i = 0; i < builder.scene.world.contacts.size(); ++i) {
-    const ContactRule& other = builder.scene.world.contacts[i];
-    const bool same = (other.groupA == rule.groupA && other.groupB == rule.groupB) ||
-                      (other.groupA == rule.groupB && other.groupB == rule.groupA);
-    if (!same) continue;
-    reader.reject("between", fmt::format("has a rule already, in line {}", builder.collideTables[i]->line));
+  const auto pair = std::minmax(rule.groupA, rule.groupB);
+  if (const auto [place, isNew] = builder.contactLines.try_emplace(pair, table.line); !isNew) {
+    reader.reject("between", fmt::format("has a rule already, in line {}", place->second));
     return;
   }
   builder.scene.world.contacts.push_back(rule);
-  builder.collideTables.push_back(&table);
 }
 
 } // namespace offstage

@@ -51,13 +51,16 @@ std::optional<Number> readGenerator(const TableReader& keys, const std::string& 
   }
   const auto parameters = keys.givenNumbers<2>("gaussian");
   if (!parameters) return std::nullopt;
-  if (!allowed.contains((*parameters)[0]) || (*parameters)[1] < 0.0) {
-    keys.reject("gaussian",
-                fmt::format("must be [mean, deviation] with a mean of {} and a deviation of at least 0",
-                            allowed.text()));
+  const auto [mean, deviation] = *parameters;
+  if (!allowed.contains(mean)) {
+    keys.reject("gaussian", fmt::format("must be [mean, deviation] with the mean {}", allowed.text()));
     return std::nullopt;
   }
-  return GaussianNumber{(*parameters)[0], (*parameters)[1]};
+  if (deviation < 0.0) {
+    keys.reject("gaussian", "must be [mean, deviation] with the deviation at least 0");
+    return std::nullopt;
+  }
+  return GaussianNumber{mean, deviation};
 }
 
 bool isFinite(const Number& number) {

@@ -54,7 +54,11 @@ std::string TomlValue::description() const {
   struct Describe {
     std::string operator()(bool value) const { return value ? "true" : "false"; }
     std::string operator()(std::int64_t value) const { return std::to_string(value); }
-    std::string operator()(double value) const { return numberText(value); }
+    std::string operator()(double value) const {
+      const std::string text = numberText(value);
+      const bool looksWhole = text.find_first_not_of("-0123456789") == std::string::npos;
+      return looksWhole ? text + ".0" : text; // "must be an integer, but it is 1" would puzzle
+    }
     std::string operator()(const std::string& value) const { return "the string " + quotedText(value); }
     std::string operator()(const DateTime& /*value*/) const { return "a date or time"; }
     std::string operator()(const Array& value) const {
