@@ -25,4 +25,11 @@ std::string Diagnostic::text() const {
 SceneError::SceneError(std::vector<Diagnostic> diagnostics)
     : Error(ExitCode::BadInput, joined(diagnostics)), diagnostics_(std::move(diagnostics)) {}
 
+SceneError::SceneError(std::string file, std::string message)
+    : Error(ExitCode::BadInput, file + ": error: " + message) {
+  Diagnostic& diagnostic = diagnostics_.emplace_back();
+  diagnostic.where.file = std::move(file);
+  diagnostic.message = std::move(message);
+}
+
 } // namespace offstage

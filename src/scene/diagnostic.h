@@ -29,6 +29,7 @@ struct Diagnostic {
 class SceneError : public Error {
 public:
   explicit SceneError(std::vector<Diagnostic> diagnostics);
+  SceneError(std::string file, std::string message); ///< about the file as a whole
   [[nodiscard]] const std::vector<Diagnostic>& diagnostics() const noexcept { return diagnostics_; }
 
 private:

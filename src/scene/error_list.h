@@ -4,6 +4,7 @@
 #include "src/scene/limits.h"
 #include "src/scene/toml_value.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -23,6 +24,7 @@ public:
   /// Errors of another file that the scene names; they come after the scene's own.
   void add(const SceneError& errors);
 
+  [[nodiscard]] std::size_t count() const { return diagnostics_.size(); }
   /// Whether there are so many errors that looking for more helps nobody.
   [[nodiscard]] bool full() const { return diagnostics_.size() >= kMaxDiagnostics; }
 

@@ -85,7 +85,9 @@ void defineOperators(mu::Parser& parser) {
 
 /// muParser's own messages name positions from 0 and types of its own; these say it in the user's words.
 std::string problemOf(const mu::ParserError& error) {
-  const std::string token = quotedText(error.GetToken());
+  std::string rest = error.GetToken(); // may be all that follows, with a blank that muParser appends
+  while (!rest.empty() && rest.back() == ' ') rest.pop_back();
+  const std::string token = quotedText(rest);
   switch (error.GetCode()) {
   case mu::ecUNASSIGNABLE_TOKEN:
     return fmt::format("{} is no variable, function or number", token);
@@ -110,7 +112,7 @@ std::string problemOf(const mu::ParserError& error) {
   case mu::ecIDENTIFIER_TOO_LONG:
     return "a name is too long";
   default:
-    return error.GetToken().empty() ? "it is not well formed" : fmt::format("{} does not fit here", token);
+    return rest.empty() ? "it is not well formed" : fmt::format("{} does not fit here", token);
   }
 }
 

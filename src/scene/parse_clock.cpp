@@ -31,8 +31,6 @@ std::optional<Clock> readRecording(const std::filesystem::path& file, ErrorList&
     return Clock::recorded(readDtLog(file));
   } catch (const SceneError& problems) {
     errors.add(problems);
-  } catch (const Error& problem) {
-    errors.add(SceneError({{{file.string(), 0, 0}, problem.what()}}));
   }
   return std::nullopt;
 }

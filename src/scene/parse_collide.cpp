@@ -1,5 +1,7 @@
 #include "src/scene/scene_builder.h"
 
+#include <algorithm>
+
 #include <fmt/core.h>
 
 namespace offstage {
@@ -31,6 +33,19 @@ bool readGroups(SceneBuilder& builder, const TableReader& reader, ContactRule& r
   return true;
 }
 
+/// Only a bounce has a restitution, and only a bounce and a slide move anything: the other responses act on
+/// every touching pair and leave its motion alone. Saying so (`separate = false`) is fine, asking for more is
+/// not.
+void rejectWhatTheResponseLacks(const TableReader& reader, const ContactRule& rule) {
+  if (rule.response == Response::Bounce) return;
+  if (reader.has("restitution")) reader.reject("restitution", "belongs to response = \"bounce\" only");
+  if (rule.response == Response::Slide) return;
+  constexpr std::string_view kProblem =
+      "cannot be true with this response: it belongs to \"bounce\" and \"slide\"";
+  if (reader.has("separate") && rule.separate) reader.reject("separate", kProblem);
+  if (reader.has("approaching_only") && rule.approachingOnly) reader.reject("approaching_only", kProblem);
+}
+
 } // namespace
 
 void parseCollide(SceneBuilder& builder, const TomlValue& table) {
@@ -41,21 +56,15 @@ void parseCollide(SceneBuilder& builder, const TomlValue& table) {
   rule.restitution = reader.number("restitution", Range::between(0.0, 1.0));
   rule.separate = reader.boolean("separate");
   rule.approachingOnly = reader.boolean("approaching_only");
-  if (rule.response != Response::Bounce && reader.has("restitution")) {
-    reader.reject("restitution", "belongs to response = \"bounce\" only");
-  }
+  rejectWhatTheResponseLacks(reader, rule);
   if (!groupsKnown) return;
 
-  for (std::size_t i = 0; i < builder.scene.world.contacts.size(); ++i) {
-    const ContactRule& other = builder.scene.world.contacts[i];
-    const bool same = (other.groupA == rule.groupA && other.groupB == rule.groupB) ||
-                      (other.groupA == rule.groupB && other.groupB == rule.groupA);
-    if (!same) continue;
-    reader.reject("between", fmt::format("has a rule already, in line {}", builder.collideTables[i]->line));
+  const auto pair = std::minmax(rule.groupA, rule.groupB);
+  if (const auto [place, isNew] = builder.contactLines.try_emplace(pair, table.line); !isNew) {
+    reader.reject("between", fmt::format("has a rule already, in line {}", place->second));
     return;
   }
   builder.scene.world.contacts.push_back(rule);
-  builder.collideTables.push_back(&table);
 }
 
 } // namespace offstage

@@ -18,9 +18,6 @@ constexpr Choice<ForceType> kTypes[] = {{"drag", ForceType::Drag},
 constexpr std::string_view kLabel = "[[force]]";
 
 DragForce readDrag(const SceneBuilder& builder, const TableReader& reader) {
-  if (!reader.has("linear") && !reader.has("quadratic")) {
-    reader.errors().add(reader.value(), "a force of type \"drag\" needs 'linear', 'quadratic' or both");
-  }
   return {reader.number("linear", Range::atLeast(0.0)),
           builder.view.perLength(reader.number("quadratic", Range::atLeast(0.0)))};
 }

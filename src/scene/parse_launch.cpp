@@ -9,16 +9,17 @@
 namespace offstage {
 namespace {
 
-/// Calls `read` for a single value or for each one of a list.
+/// Calls `read` for a key's single value or for each one of its list; not at all when the key is absent.
 void readEach(const TableReader& reader, std::string_view key, std::string_view wanted,
               const std::function<void(const TomlValue&, const std::string&)>& read) {
-  const TomlValue& value = *reader.find(key);
+  const TomlValue* value = reader.find(key);
+  if (value == nullptr) return;
   const std::string what = reader.described(key);
-  const auto* list = value.array();
+  const auto* list = value->array();
   if (list == nullptr) {
-    read(value, what);
+    read(*value, what);
   } else if (list->empty()) {
-    reportMismatch(value, what, wanted, reader.errors());
+    reportMismatch(*value, what, wanted, reader.errors());
   } else {
     for (std::size_t i = 0; i < list->size(); ++i)
       read((*list)[i], fmt::format("value {} of {}", i + 1, what));
@@ -27,22 +28,20 @@ void readEach(const TableReader& reader, std::string_view key, std::string_view 
 
 std::vector<Launch::Moment> readMoments(const TableReader& reader) {
   std::vector<Launch::Moment> moments;
-  if (reader.rejectBoth("frame", "at")) return moments;
-  if (reader.has("at")) {
-    readEach(reader, "at", "a time or a list of times", [&](const TomlValue& value, const std::string& what) {
-      const auto time = readNumber(value, what, Range::atLeast(0.0), reader.errors());
-      if (time) moments.push_back({std::nullopt, *time});
-    });
-  } else if (reader.has("frame")) {
-    readEach(reader, "frame", "a frame or a list of frames",
-             [&](const TomlValue& value, const std::string& what) {
-               const auto frame =
-                   readInteger(value, what, 1, std::numeric_limits<std::int64_t>::max(), reader.errors());
-               if (frame) moments.push_back({frame, 0.0});
-             });
-  } else {
+  if (!reader.has("at") && !reader.has("frame")) {
     reader.errors().add(reader.value(), "[[launch]] needs 'at' or 'frame'");
   }
+  reader.rejectBoth("frame", "at");
+  readEach(reader, "at", "a time or a list of times", [&](const TomlValue& value, const std::string& what) {
+    const auto time = readNumber(value, what, Range::atLeast(0.0), reader.errors());
+    if (time) moments.push_back({std::nullopt, *time});
+  });
+  readEach(reader, "frame", "a frame or a list of frames",
+           [&](const TomlValue& value, const std::string& what) {
+             const auto frame =
+                 readInteger(value, what, 1, std::numeric_limits<std::int64_t>::max(), reader.errors());
+             if (frame) moments.push_back({frame, 0.0});
+           });
   return moments;
 }
 

@@ -23,7 +23,7 @@ std::optional<ImagePattern> readPattern(SceneBuilder& builder, const TableReader
     }
   } else if (!pattern.proportional && !reader.has("anchor")) {
     reader.reject("proportional",
-                  "needs an 'anchor' when it is false: the rectangle in px that holds one image");
+                  "can be false only beside an 'anchor', the rectangle in px that holds one image");
   }
   const auto file = builder.readFile(reader, "image");
   if (!file) return std::nullopt;

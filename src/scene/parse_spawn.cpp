@@ -51,13 +51,16 @@ std::optional<Number> readGenerator(const TableReader& keys, const std::string& 
   }
   const auto parameters = keys.givenNumbers<2>("gaussian");
   if (!parameters) return std::nullopt;
-  if (!allowed.contains((*parameters)[0]) || (*parameters)[1] < 0.0) {
-    keys.reject("gaussian",
-                fmt::format("must be [mean, deviation] with a mean of {} and a deviation of at least 0",
-                            allowed.text()));
+  const auto [mean, deviation] = *parameters;
+  if (!allowed.contains(mean)) {
+    keys.reject("gaussian", fmt::format("must be [mean, deviation] with the mean {}", allowed.text()));
     return std::nullopt;
   }
-  return GaussianNumber{(*parameters)[0], (*parameters)[1]};
+  if (deviation < 0.0) {
+    keys.reject("gaussian", "must be [mean, deviation] with the deviation at least 0");
+    return std::nullopt;
+  }
+  return GaussianNumber{mean, deviation};
 }
 
 bool isFinite(const Number& number) {
@@ -99,17 +102,17 @@ public:
   bool readPair(std::string_view pairKey, std::string_view firstKey, std::string_view secondKey,
                 Range allowed, const AffineMap& firstMap, const AffineMap& secondMap, Number& first,
                 Number& second) const {
-    if (reader_.has(pairKey)) {
-      if (!reader_.rejectBoth(firstKey, pairKey)) reader_.rejectBoth(secondKey, pairKey);
-      const auto pair = reader_.pair(pairKey, allowed);
-      first = ConstantNumber{firstMap(pair[0])};
-      second = ConstantNumber{secondMap(pair[1])};
-      if (!isFinite(first) || !isFinite(second)) reader_.reject(pairKey, "is too large for this [view]");
-      return true;
-    }
+    // Read even beside the pair, so that what is wrong with them is said too.
     first = read(firstKey, allowed, firstMap, 0.0);
     second = read(secondKey, allowed, secondMap, 0.0);
-    return false;
+    if (!reader_.has(pairKey)) return false;
+    reader_.rejectBoth(firstKey, pairKey);
+    reader_.rejectBoth(secondKey, pairKey);
+    const auto pair = reader_.pair(pairKey, allowed);
+    first = ConstantNumber{firstMap(pair[0])};
+    second = ConstantNumber{secondMap(pair[1])};
+    if (!isFinite(first) || !isFinite(second)) reader_.reject(pairKey, "is too large for this [view]");
+    return true;
   }
 
   /// The same for a pair that must be given in one of its forms.

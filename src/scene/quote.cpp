@@ -1,6 +1,7 @@
 #include "src/scene/quote.h"
 
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 
 #include <fmt/core.h>
@@ -9,6 +10,10 @@ namespace offstage {
 namespace {
 
 constexpr std::size_t kShownBytes = 60;
+
+bool isContinuation(char byte) {
+  return (static_cast<unsigned char>(byte) & 0xc0U) == 0x80U;
+}
 
 /// Length of the UTF-8 sequence that `text` begins with; 0 when it begins with none (RFC 3629, section 4,
 /// where lengths and lead bytes come from; overlong forms and surrogates pass, for they are harmless to
@@ -23,7 +28,7 @@ std::size_t sequenceLength(std::string_view text) {
                                            : 0;
   if (length > text.size()) return 0;
   for (std::size_t i = 1; i < length; ++i) {
-    if ((static_cast<unsigned char>(text[i]) & 0xc0U) != 0x80U) return 0;
+    if (!isContinuation(text[i])) return 0;
   }
   return length;
 }
@@ -36,26 +41,34 @@ bool isControl(std::string_view sequence) {
 
 } // namespace
 
-std::string quotedText(std::string_view text) {
-  std::string result = "\"";
-  std::size_t shown = 0;
-  while (shown < text.size() && shown < kShownBytes) {
-    const std::size_t length = sequenceLength(text.substr(shown));
-    const std::string_view sequence = text.substr(shown, length == 0 ? 1 : length);
+std::string printable(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t length = sequenceLength(text);
+    const std::string_view sequence = text.substr(0, length == 0 ? 1 : length);
     if (length == 0 || isControl(sequence)) {
       for (const char byte : sequence) result += fmt::format("\\x{:02x}", static_cast<unsigned char>(byte));
     } else {
       result += sequence;
     }
-    shown += sequence.size();
+    text.remove_prefix(sequence.size());
   }
-  if (shown < text.size()) result += "…";
-  return result + '"';
+  return result;
+}
+
+std::string quotedText(std::string_view text) {
+  if (text.size() <= kShownBytes) return '"' + printable(text) + '"';
+  std::size_t cut = kShownBytes;
+  while (cut > 0 && isContinuation(text[cut])) --cut; // never within a character
+  return '"' + printable(text.substr(0, cut)) + "…\"";
 }
 
 std::string numberText(double value) {
   char digits[32];
-  const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value);
+  const bool isWhole = std::trunc(value) == value && std::fabs(value) < 1e15;
+  const auto [end, error] =
+      isWhole ? std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed)
+              : std::to_chars(digits, digits + sizeof digits, value);
   return error == std::errc() ? std::string(digits, end) : std::string();
 }
 

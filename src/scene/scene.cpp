@@ -7,6 +7,7 @@
 #include "src/scene/text_file.h"
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -47,8 +48,8 @@ void parseEach(SceneBuilder& builder, const TableReader& top, std::string_view k
   }
 }
 
-/// The picture's size in output pixels, which scale must keep in bounds.
-void checkScale(SceneBuilder& builder, const std::optional<double>& given) {
+/// Takes the command line's scale and holds the picture's size in output pixels within bounds.
+void checkScale(SceneBuilder& builder, const TableReader& top, const std::optional<double>& given) {
   Scene& scene = builder.scene;
   if (given) {
     const Range allowed = Range::aboveUpTo(0.0, kMaxScale);
@@ -63,9 +64,14 @@ void checkScale(SceneBuilder& builder, const std::optional<double>& given) {
   const double height = std::round(scene.size[1] * scene.scale);
   const double largest = static_cast<double>(kMaxSide);
   if (width >= 1.0 && height >= 1.0 && width <= largest && height <= largest) return;
-  builder.errors.add(
+  const std::string problem =
       fmt::format("size times scale gives a picture of {}x{} px; each side must be from 1 to {}", width,
-                  height, kMaxSide));
+                  height, kMaxSide);
+  if (given) {
+    builder.errors.add(problem);
+  } else {
+    builder.errors.add(*top.find("frame"), problem); // without a [frame], both have their defaults
+  }
 }
 
 void parseTables(SceneBuilder& builder, const TomlValue& root, const SceneOverrides& overrides) {
@@ -77,7 +83,7 @@ void parseTables(SceneBuilder& builder, const TomlValue& root, const SceneOverri
   if (overrides.seed) scene.world.seed = *overrides.seed;
 
   parseSingle(builder, top, "frame", parseFrame);
-  checkScale(builder, overrides.scale);
+  checkScale(builder, top, overrides.scale);
   scene.world.pane = Vec2(scene.size[0], scene.size[1]);
   parseClock(builder, singleTable(top, "clock"), top, overrides);
   // The view and the world's integrator come before everything that they hold for.
@@ -89,7 +95,10 @@ void parseTables(SceneBuilder& builder, const TomlValue& root, const SceneOverri
   parseEach(builder, top, "spawn", parseSpawn);
   parseEach(builder, top, "launch", parseLaunch);
   parseEach(builder, top, "collide", parseCollide);
+  const std::size_t errorsBefore = builder.errors.count();
   parseEach(builder, top, "force", parseForce);
+  // Behind a wrong force, what has a closed form cannot be told.
+  if (builder.errors.count() == errorsBefore) checkExactBodies(builder, errorsBefore == 0);
 }
 
 } // namespace
@@ -100,8 +109,7 @@ Scene loadScene(const std::filesystem::path& file, const SceneOverrides& overrid
 
 Scene parseScene(std::string_view text, const std::filesystem::path& file, const SceneOverrides& overrides) {
   if (text.size() > kMaxSceneBytes) {
-    throw Error(ExitCode::BadInput,
-                fmt::format("{}: error: a scene may hold at most {} bytes", file.string(), kMaxSceneBytes));
+    throw SceneError(file.string(), fmt::format("a scene may hold at most {} bytes", kMaxSceneBytes));
   }
   Diagnostic syntaxError;
   const auto root = parseToml(text, file.string(), syntaxError);

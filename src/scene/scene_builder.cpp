@@ -15,6 +15,9 @@ namespace {
 
 using Names = std::map<std::string, std::uint32_t, std::less<>>;
 
+/// Among more names than this nobody's typo is looked for: a hostile file could make that take hours.
+constexpr std::size_t kMostSuggested = 1000;
+
 /// The index of a name that must be known. `kind`: "group", "body".
 std::optional<std::uint32_t> findName(const Names& names, const TomlValue& value, const std::string& what,
                                       std::string_view kind, ErrorList& errors) {
@@ -25,12 +28,14 @@ std::optional<std::uint32_t> findName(const Names& names, const TomlValue& value
   }
   if (const auto found = names.find(*name); found != names.end()) return found->second;
   std::vector<std::string_view> known;
-  for (const auto& [candidate, index] : names) known.emplace_back(candidate);
+  if (names.size() <= kMostSuggested) {
+    for (const auto& [candidate, index] : names) known.emplace_back(candidate);
+  }
   const std::string_view near = nearest(*name, known);
   std::string hint;
   if (!near.empty()) {
     hint = fmt::format("; did you mean {}?", quotedText(near));
-  } else if (known.empty()) {
+  } else if (names.empty()) {
     hint = fmt::format("; the scene has no {}", kind == "body" ? "named body" : kind);
   }
   errors.add(value, fmt::format("{} names an unknown {}, {}{}", what, kind, quotedText(*name), hint));
@@ -102,7 +107,7 @@ std::optional<std::filesystem::path> SceneBuilder::readFile(const TableReader& r
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (status.type() == std::filesystem::file_type::not_found) {
-    return reject(fmt::format("which does not exist ({})", quotedText(file.string())));
+    return reject("which does not exist beside the scene");
   }
   if (!std::filesystem::status_known(status)) return reject("which cannot be looked up: " + error.message());
   if (!std::filesystem::is_regular_file(status)) return reject("which is no regular file");

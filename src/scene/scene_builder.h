@@ -15,6 +15,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace offstage {
@@ -37,7 +38,8 @@ struct SceneBuilder {
   std::vector<const TomlValue*> bodyTables;
   std::vector<const TomlValue*> spawnTables;
   std::vector<const TomlValue*> launchTables;
-  std::vector<const TomlValue*> collideTables;
+  /// By pair of groups, the smaller index first: line of its rule.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> contactLines;
 
   /// The index of a group, which comes into being by its first mention.
   std::uint32_t addGroup(const std::string& name);
@@ -67,5 +69,9 @@ void parseSpawn(SceneBuilder& builder, const TomlValue& table);
 void parseLaunch(SceneBuilder& builder, const TomlValue& table);
 void parseCollide(SceneBuilder& builder, const TomlValue& table);
 void parseForce(SceneBuilder& builder, const TomlValue& table);
+
+/// Reports each body, spawn and launch with the integrator "exact" whose motion has no closed form; after all
+/// tables. `startsAreKnown`: every body's numbers are right, so that its start can be judged too.
+void checkExactBodies(SceneBuilder& builder, bool startsAreKnown);
 
 } // namespace offstage

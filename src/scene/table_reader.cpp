@@ -209,11 +209,10 @@ void TableReader::reportUnknownKeys() const {
         });
     if (known) continue;
     const std::string place = label_.empty() ? "" : " in " + label_;
-    // The key is the user's own text: shown quoted, as every such text.
-    const std::string shown = quotedText(prefix_ + entry.key);
+    const std::string quotedKey = quotedText(prefix_ + entry.key);
+    const std::string shown = quotedKey.substr(1, quotedKey.size() - 2); // the message has its own quotes
     errors_.add(entry.line, entry.column,
-                fmt::format("unknown key '{}'{}; {}", shown.substr(1, shown.size() - 2), place,
-                            unknownKeyHint(entry.key)));
+                fmt::format("unknown key '{}'{}; {}", shown, place, unknownKeyHint(entry.key)));
   }
 }
 

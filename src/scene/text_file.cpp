@@ -1,6 +1,6 @@
 #include "src/scene/text_file.h"
 
-#include "src/sim/error.h"
+#include "src/scene/diagnostic.h"
 
 #include <cerrno>
 #include <cstdio>
@@ -13,9 +13,7 @@
 namespace offstage {
 
 std::string readTextFile(const std::filesystem::path& file, std::size_t limit, const std::string& what) {
-  const auto fail = [&file](const std::string& problem) {
-    throw Error(ExitCode::BadInput, fmt::format("{}: error: {}", file.string(), problem));
-  };
+  const auto fail = [&file](const std::string& problem) { throw SceneError(file.string(), problem); };
   std::error_code error;
   if (std::filesystem::is_directory(file, error)) fail(fmt::format("this is a folder, not {}", what));
 

@@ -6,8 +6,8 @@
 
 namespace offstage {
 
-/// The whole of a text file, a pipe included. Throws Error(BadInput) with a message that begins with the file
-/// and names what is wrong: it does not exist, is a folder, may not be read, or holds more than `limit` bytes
+/// The whole of a text file, a pipe included. Throws SceneError about the file as a whole when it does not
+/// exist, is a folder, may not be read, or holds more than `limit` bytes
 /// (`what` names the kind of file in that message: "a scene").
 std::string readTextFile(const std::filesystem::path& file, std::size_t limit, const std::string& what);
 

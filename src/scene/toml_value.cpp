@@ -54,7 +54,11 @@ std::string TomlValue::description() const {
   struct Describe {
     std::string operator()(bool value) const { return value ? "true" : "false"; }
     std::string operator()(std::int64_t value) const { return std::to_string(value); }
-    std::string operator()(double value) const { return numberText(value); }
+    std::string operator()(double value) const {
+      const std::string text = numberText(value);
+      const bool looksWhole = text.find_first_not_of("-0123456789") == std::string::npos;
+      return looksWhole ? text + ".0" : text; // "must be an integer, but it is 1" would puzzle
+    }
     std::string operator()(const std::string& value) const { return "the string " + quotedText(value); }
     std::string operator()(const DateTime& /*value*/) const { return "a date or time"; }
     std::string operator()(const Array& value) const {
@@ -76,7 +80,7 @@ std::optional<TomlValue> parseToml(std::string_view text, const std::string& fil
     return converted(toml::parse(text, std::string_view(file)));
   } catch (const toml::parse_error& problem) {
     const toml::source_position begin = problem.source().begin;
-    error = {{file, begin.line, begin.column}, std::string(problem.description())};
+    error = {{file, begin.line, begin.column}, "not valid TOML: " + printable(problem.description())};
     return std::nullopt;
   }
 }

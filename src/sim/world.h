@@ -2,7 +2,9 @@
 
 #include "src/sim/body.h"
 #include "src/sim/clock.h"
+#include "src/sim/contact_solver.h"
 #include "src/sim/event.h"
+#include "src/sim/mover.h"
 #include "src/sim/random.h"
 #include "src/sim/world_setup.h"
 
@@ -23,7 +25,9 @@ public:
   /// the message names the body's id and the reason (see closedFormProblem()).
   explicit World(WorldSetup setup);
 
-  /// One frame: `tick.frame` must be frame() + 1.
+  /// One frame: `tick.frame` must be frame() + 1 (std::invalid_argument otherwise). Throws Error(BadInput)
+  /// when an `Exact` body has got into a state without a closed form, such as an orbit from which it escapes
+  /// after a collision; the world is then to be given up.
   void step(const Tick& tick);
 
   [[nodiscard]] std::int64_t frame() const { return frame_; }
@@ -37,10 +41,23 @@ public:
   [[nodiscard]] std::uint64_t stateHash() const;
 
 private:
+  void create(Body body, double time); ///< gives the body its id and lets it move from `time` on
+  void launchDue(const Tick& tick);
+  void spawnDue(Spawner::When when, const Tick& tick, double time);
+  void substep(double t, double h, double end,
+               const Event& stamp); ///< from t to `end`, by a step of length h
+  void removeGone(const Event& stamp);
+
   WorldSetup setup_;
   Random random_;
+  Mover mover_;
+  ContactSolver contacts_;
   std::vector<Body> bodies_;
+  std::vector<std::uint8_t>
+      removed_; ///< by index into bodies_, within a step: 1 when a contact takes it away
+  std::vector<std::int64_t> spawned_; ///< by spawner: bodies that it has made
   std::vector<Event> events_;
+  std::uint32_t nextId_ = 0;
   std::int64_t frame_ = 0;
   double time_ = 0.0;
 };

@@ -1,0 +1,134 @@
+#include "src/sim/contact.h"
+
+#include "src/sim/force_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace offstage {
+namespace {
+
+// Unit vectors by Side: out of a rectangle's left, right, top, bottom side.
+const std::array<Vec2, 4>& outwardNormals() {
+  static const std::array<Vec2, 4> kNormals{Vec2(-1.0, 0.0), Vec2(1.0, 0.0), Vec2(0.0, -1.0), Vec2(0.0, 1.0)};
+  return kNormals;
+}
+
+std::optional<Contact> betweenCircles(const Body& first, const Body& second) {
+  const Vec2 d = second.position - first.position;
+  const double distance = length(d);
+  const double touch = first.radius + second.radius;
+  if (!(distance < touch)) return std::nullopt;
+  return Contact{distance > 0.0 ? Vec2(d / distance) : Vec2(1.0, 0.0), distance, touch};
+}
+
+/// With the normal from the rectangle to the circle.
+std::optional<Contact> betweenRectangleAndCircle(const Body& rectangle, const Body& circle) {
+  const Vec2& low = rectangle.position;
+  const Vec2 high = low + rectangle.size;
+  const Vec2& c = circle.position;
+  const std::array<double, 4> depths{c.x() - low.x(), high.x() - c.x(), c.y() - low.y(), high.y() - c.y()};
+  const auto nearest = std::min_element(depths.begin(), depths.end()); // the first of equals
+  if (std::all_of(depths.begin(), depths.end(),
+                  [](double depth) { return depth >= 0.0; })) { // the centre is inside
+    if (!(-*nearest < circle.radius)) return std::nullopt;      // a point on the edge
+    return Contact{outwardNormals()[static_cast<std::size_t>(nearest - depths.begin())], -*nearest,
+                   circle.radius};
+  }
+  const Vec2 closest(std::clamp(c.x(), low.x(), high.x()), std::clamp(c.y(), low.y(), high.y()));
+  const Vec2 d = c - closest;
+  const double distance = length(d);
+  if (!(distance < circle.radius)) return std::nullopt;
+  // Outside by less than a square root can tell from 0, the nearest side's normal is the direction.
+  const Vec2 normal = distance > 0.0 ? Vec2(d / distance)
+                                     : outwardNormals()[static_cast<std::size_t>(nearest - depths.begin())];
+  return Contact{normal, distance, circle.radius};
+}
+
+std::optional<Contact> betweenRectangles(const Body& first, const Body& second) {
+  const Vec2& low = first.position;
+  const Vec2 high = low + first.size;
+  const Vec2& otherLow = second.position;
+  const Vec2 otherHigh = otherLow + second.size;
+  // How far the second would have to go to get out to the left, right, top, bottom.
+  const std::array<double, 4> ways{otherHigh.x() - low.x(), high.x() - otherLow.x(), otherHigh.y() - low.y(),
+                                   high.y() - otherLow.y()};
+  const auto least = std::min_element(ways.begin(), ways.end()); // the first of equals
+  if (!std::all_of(ways.begin(), ways.end(), [](double way) { return way > 0.0; })) return std::nullopt;
+  return Contact{outwardNormals()[static_cast<std::size_t>(least - ways.begin())], -*least, 0.0};
+}
+
+Vec2 velocityOf(const Body& body) {
+  return body.fixed ? Vec2::Zero() : body.velocity;
+}
+
+} // namespace
+
+std::optional<Contact> findContact(const Body& first, const Body& second) {
+  const bool firstIsCircle = first.shape == Shape::Circle;
+  const bool secondIsCircle = second.shape == Shape::Circle;
+  if (firstIsCircle && secondIsCircle) return betweenCircles(first, second);
+  if (!firstIsCircle && !secondIsCircle) return betweenRectangles(first, second);
+  if (secondIsCircle) return betweenRectangleAndCircle(first, second);
+  std::optional<Contact> contact = betweenRectangleAndCircle(second, first);
+  if (contact) contact->normal = -contact->normal;
+  return contact;
+}
+
+double closingSpeed(const Contact& contact, const Body& first, const Body& second) {
+  return dot(velocityOf(first), contact.normal) - dot(velocityOf(second), contact.normal);
+}
+
+bool responds(const ContactRule& rule, const Contact& contact, const Body& first, const Body& second) {
+  if (first.fixed && second.fixed) return false;
+  if (!rule.approachingOnly) return true;
+  return dot(velocityOf(first), contact.normal) > dot(velocityOf(second), contact.normal);
+}
+
+void respond(const ContactRule& rule, const Contact& contact, Body& first, Body& second) {
+  const Vec2& n = contact.normal;
+  const Vec2 t(-n.y(), n.x());
+  const Vec2 v1 = velocityOf(first);
+  const Vec2 v2 = velocityOf(second);
+  const double v1t = dot(v1, t);
+  const double v1n = dot(v1, n);
+  const double v2t = dot(v2, t);
+  const double v2n = dot(v2, n);
+  Vec2 new1;
+  Vec2 new2;
+  if (rule.response == Response::Slide) {
+    const Vec2 n1 = n * v1n;
+    const Vec2 n2 = n * v2n;
+    new1 = (t * v1t + n1) - n2;
+    new2 = (t * v2t + n2) - n1;
+  } else {
+    double after1 = v2n;
+    double after2 = v1n;
+    const double m1 = first.mass;
+    const double m2 = second.mass;
+    const double returned = rule.restitution * (v1n - v2n);
+    if (first.fixed || second.fixed) {
+      after1 = v2n - returned; // the speed of the fixed one, 0, and what comes back
+      after2 = v1n + returned;
+    } else if (m1 != m2 || rule.restitution != 1.0) {
+      const double momentum = m1 * v1n + m2 * v2n;
+      after1 = (momentum - m2 * returned) / (m1 + m2);
+      after2 = (momentum + m1 * returned) / (m1 + m2);
+    }
+    new1 = t * v1t + n * after1;
+    new2 = t * v2t + n * after2;
+  }
+  if (!first.fixed) first.velocity = new1;
+  if (!second.fixed) second.velocity = new2;
+}
+
+void separate(const Contact& contact, Body& first, Body& second) {
+  if (first.fixed && second.fixed) return;
+  const double overlap = contact.touch - contact.distance;
+  const Vec2 push = contact.normal * (first.fixed || second.fixed ? overlap : overlap * 0.5);
+  if (!first.fixed) first.position -= push;
+  if (!second.fixed) second.position += push;
+}
+
+} // namespace offstage

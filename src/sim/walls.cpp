@@ -1,0 +1,56 @@
+#include "src/sim/walls.h"
+
+#include <array>
+#include <cstddef>
+
+namespace offstage {
+namespace {
+
+/// A body's extent along one axis, from its position: position − before … position + after.
+struct Reach {
+  double before;
+  double after;
+};
+
+Reach reach(const Body& body, int axis) {
+  if (body.shape == Shape::Circle) return {body.radius, body.radius};
+  return {0.0, body.size[axis]};
+}
+
+} // namespace
+
+void bounceOffWalls(const Walls& walls, const Vec2& pane, Body& body, const Event& stamp,
+                    std::vector<Event>& events) {
+  static constexpr std::array<EventKind, 4> kKinds{EventKind::Left, EventKind::Right, EventKind::Top,
+                                                   EventKind::Bottom};
+  for (std::size_t side = 0; side < kKinds.size(); ++side) {
+    const std::optional<double>& k = walls.restitution[side];
+    if (!k) continue;
+    const int axis = side < 2 ? 0 : 1;
+    const bool lower = side % 2 == 0; // the edge at coordinate 0
+    const auto [before, after] = reach(body, axis);
+    double& x = body.position[axis];
+    double& v = body.velocity[axis];
+    const bool touches = lower ? x - before <= 0.0 : x + after >= pane[axis];
+    if (!touches || (walls.clamp && !(lower ? v < 0.0 : v > 0.0))) continue;
+    Event event = stamp;
+    event.kind = kKinds[side];
+    event.first = body.id;
+    event.p = x;
+    event.q = v;
+    events.push_back(event);
+    if (walls.clamp) x = lower ? before : pane[axis] - after;
+    v = -v * *k;
+  }
+}
+
+bool isOutside(const Vec2& pane, const Body& body) {
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto [before, after] = reach(body, axis);
+    const double x = body.position[axis];
+    if (x + after < 0.0 || x - before > pane[axis]) return true;
+  }
+  return false;
+}
+
+} // namespace offstage

@@ -1,0 +1,152 @@
+#include "src/sim/world.h"
+
+#include "src/sim/birth.h"
+#include "src/sim/setup_check.h"
+#include "src/sim/state_hash.h"
+#include "src/sim/walls.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace offstage {
+namespace {
+
+Event eventOf(const Event& stamp, EventKind kind, std::uint32_t id, const Vec2& value) {
+  Event event = stamp;
+  event.kind = kind;
+  event.first = id;
+  event.p = value.x();
+  event.q = value.y();
+  return event;
+}
+
+Event stampOf(const Tick& tick) {
+  Event stamp;
+  stamp.frame = tick.frame;
+  stamp.time = tick.time;
+  return stamp;
+}
+
+} // namespace
+
+World::World(WorldSetup setup)
+    : setup_(std::move(setup)), random_(setup_.seed), spawned_(setup_.spawners.size(), 0) {
+  checkSetup(setup_);
+  for (std::size_t i = 0; i < setup_.bodies.size(); ++i) setup_.bodies[i].id = static_cast<std::uint32_t>(i);
+  mover_ = Mover(setup_);
+  contacts_ = ContactSolver(setup_.contacts);
+  bodies_.reserve(setup_.bodies.size());
+  for (const Body& body : setup_.bodies) create(body, time_);
+}
+
+void World::create(Body body, double time) {
+  body.id = nextId_;
+  mover_.add(setup_, body, time);
+  bodies_.push_back(body);
+  ++nextId_;
+}
+
+void World::step(const Tick& tick) {
+  if (tick.frame != frame_ + 1) {
+    throw std::invalid_argument("World::step: frame " + std::to_string(tick.frame) +
+                                " does not follow frame " + std::to_string(frame_));
+  }
+  events_.clear();
+  launchDue(tick);
+  spawnDue(Spawner::When::BeforeUpdate, tick, time_);
+  const double h = tick.dt / setup_.substeps;
+  for (int j = 0; j < setup_.substeps; ++j) {
+    const double end = j + 1 == setup_.substeps ? tick.time : time_ + (j + 1) * h;
+    substep(time_ + j * h, h, end, stampOf(tick));
+  }
+  frame_ = tick.frame;
+  time_ = tick.time;
+  spawnDue(Spawner::When::AfterUpdate, tick, time_);
+}
+
+void World::launchDue(const Tick& tick) {
+  for (const Launch& launch : setup_.launches) {
+    for (const Launch::Moment& moment : launch.moments) {
+      if (!isDue(moment, tick.frame, time_, tick.time)) continue;
+      const Shot shot = aim(launch, bodies_);
+      if (!shot.velocity) {
+        events_.push_back(eventOf(stampOf(tick), EventKind::NoFire, nextId_, shot.from));
+        continue;
+      }
+      Body body = launch.prototype;
+      body.position = body.shape == Shape::Circle ? shot.from : Vec2(shot.from - body.size * 0.5);
+      body.velocity = *shot.velocity;
+      events_.push_back(eventOf(stampOf(tick), EventKind::Fire, nextId_, body.velocity));
+      create(body, time_);
+    }
+  }
+}
+
+void World::spawnDue(Spawner::When when, const Tick& tick, double time) {
+  for (std::size_t i = 0; i < setup_.spawners.size(); ++i) {
+    const Spawner& spawner = setup_.spawners[i];
+    const auto index = static_cast<std::uint32_t>(i);
+    std::int64_t& made = spawned_[i];
+    if (spawner.when != when || (spawner.limit && made >= *spawner.limit)) continue;
+    const auto count = spawner.count == Spawner::Count::Spawned
+                           ? made
+                           : std::count_if(bodies_.begin(), bodies_.end(),
+                                           [index](const Body& b) { return b.spawner == index; });
+    if (!(std::floor(tick.time / spawner.every) > static_cast<double>(count))) continue;
+    const Body body = drawBody(spawner, index, made, random_);
+    ++made;
+    events_.push_back(eventOf(stampOf(tick), EventKind::Spawn, nextId_, body.position));
+    create(body, time);
+  }
+}
+
+void World::substep(double t, double h, double end, const Event& stamp) {
+  mover_.begin(bodies_, t, h);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    Body& body = bodies_[i];
+    if (body.fixed) continue;
+    const Motion motion = mover_.next(bodies_, i, t, h, end);
+    body.position = motion.position;
+    body.velocity = motion.velocity;
+    bounceOffWalls(setup_.walls, setup_.pane, body, stamp, events_);
+  }
+  removed_.assign(bodies_.size(), 0);
+  contacts_.solve(bodies_, removed_, stamp, events_);
+  removeGone(stamp);
+}
+
+void World::removeGone(const Event& stamp) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Body& body = bodies_[i];
+    if (removed_[i] != 0 || !body.removedOutside || !isOutside(setup_.pane, body)) continue;
+    removed_[i] = 1;
+    events_.push_back(eventOf(stamp, EventKind::Leave, body.id, body.position));
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (removed_[i] != 0) continue;
+    if (kept != i) bodies_[kept] = bodies_[i];
+    ++kept;
+  }
+  if (kept == bodies_.size()) return;
+  bodies_.resize(kept);
+  mover_.keepOnly(bodies_);
+}
+
+const Body* World::find(std::uint32_t id) const {
+  return findBody(bodies_, id);
+}
+
+std::uint64_t World::stateHash() const {
+  StateHash hash(time_);
+  for (const Body& body : bodies_) {
+    hash.add(body.id, body.shape, body.position, body.velocity, body.radius, body.size);
+  }
+  return hash.value();
+}
+
+} // namespace offstage

@@ -1,0 +1,195 @@
+#include "src/scene/scene.h"
+#include "tests/support/scene_broken.h"
+#include "tests/support/scene_text.h"
+
+#include <algorithm>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace offstage {
+namespace {
+
+using test::errorsOf;
+using ::testing::ElementsAre;
+using ::testing::ElementsAreArray;
+
+class BrokenScene : public ::testing::TestWithParam<test::BrokenScene> {};
+
+TEST_P(BrokenScene, SaysExactlyThis) {
+  std::vector<std::string> wanted;
+  for (const std::string& error : GetParam().errors) wanted.push_back("scene.toml:" + error);
+  EXPECT_THAT(errorsOf(GetParam().text), ElementsAreArray(wanted)) << GetParam().text;
+}
+
+INSTANTIATE_TEST_SUITE_P(SceneErrors, BrokenScene, ::testing::ValuesIn(test::brokenScenes()),
+                         [](const auto& param) { return param.param.name; });
+
+TEST(SceneErrors, ThereAreManyBrokenScenesAndEachNamesAnError) {
+  EXPECT_GE(test::brokenScenes().size(), 140U);
+  for (const test::BrokenScene& scene : test::brokenScenes())
+    EXPECT_FALSE(scene.errors.empty()) << scene.name;
+}
+
+TEST(SceneErrors, BytesThatAreNoText) {
+  EXPECT_THAT(errorsOf("title = \"a\xff\"\n"),
+              ElementsAre("scene.toml:1:10: error: not valid TOML: Encountered invalid utf-8 sequence"));
+  EXPECT_THAT(
+      errorsOf("\x7f"
+               "ELF\x02\x01\n"),
+      ElementsAre("scene.toml:1:1: error: not valid TOML: Error while parsing root table: expected keys, "
+                  "tables, whitespace or comments, saw '\\u007F'"));
+  EXPECT_THAT(
+      errorsOf(std::string_view("title = \"a\0\"", 12)),
+      ElementsAre("scene.toml:1:11: error: not valid TOML: Error while parsing string: unescaped control "
+                  "characters other than TAB (U+0009) are explicitly prohibited"));
+}
+
+std::string whatOf(const std::filesystem::path& file) {
+  try {
+    static_cast<void>(loadScene(file));
+    return "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::BadInput);
+    return error.what();
+  }
+}
+
+TEST(SceneErrors, AllErrorsOfAFileInTheOrderOfItsLines) {
+  // The parser reads forces last and [frame] first, whatever the order in the file.
+  EXPECT_THAT(
+      errorsOf("[[force]]\ntype = \"drag\"\nlinear = -1\n\n"
+               "[[body]]\nradius = -2\nmas = 3\n\n"
+               "[frame]\nscale = \"x\"\n"
+               "[clock]\nfps = nan\n"),
+      ElementsAre("scene.toml:3:10: error: 'linear' in [[force]] must be at least 0, but it is -1",
+                  "scene.toml:5:1: error: [[body]] needs 'center'",
+                  "scene.toml:6:10: error: 'radius' in [[body]] must be at least 0, but it is -2",
+                  "scene.toml:7:1: error: unknown key 'mas' in [[body]]; did you mean 'mass'?",
+                  "scene.toml:10:9: error: 'scale' in [frame] must be a number, but it is the string \"x\"",
+                  "scene.toml:12:7: error: 'fps' in [clock] must be a finite number, but it is nan"));
+}
+
+TEST(SceneErrors, WhatHoldsOneErrorALineAndTheExitCodeIsBadInput) {
+  try {
+    static_cast<void>(test::sceneOf("a = 1\nb = 2\n"));
+    ADD_FAILURE() << "no error";
+  } catch (const SceneError& error) {
+    EXPECT_EQ(error.code(), ExitCode::BadInput);
+    ASSERT_EQ(error.diagnostics().size(), 2U);
+    EXPECT_EQ(error.what(), error.diagnostics()[0].text() + '\n' + error.diagnostics()[1].text());
+    EXPECT_EQ(error.diagnostics()[1].where.file, "scene.toml");
+    EXPECT_EQ(error.diagnostics()[1].where.line, 2U);
+  }
+}
+
+TEST(SceneErrors, ErrorsOfADtLogNameTheLog) {
+  const test::TemporaryFolder folder;
+  const auto log = folder.write("a.dt", "1\nx\n");
+  const auto scene = folder.write("a.toml", "[clock]\nrecorded = \"a.dt\"\nfsp = 3\n");
+  EXPECT_EQ(whatOf(scene), scene.string() +
+                               ":3:1: error: unknown key 'fsp' in [clock]; did you mean 'fps'?\n" +
+                               log.string() + ":2:1: error: \"x\" is not a whole number of nanoseconds");
+}
+
+TEST(SceneErrors, FilesThatAreNoScene) {
+  const test::TemporaryFolder folder;
+  EXPECT_EQ(whatOf(folder.path()), folder.path().string() + ": error: this is a folder, not a scene");
+  const auto missing = folder.path() / "none.toml";
+  EXPECT_EQ(whatOf(missing), missing.string() + ": error: cannot be read: No such file or directory");
+  const auto large = folder.write("large.toml", "");
+  std::filesystem::resize_file(large, 100'000'000);
+  EXPECT_EQ(whatOf(large), large.string() + ": error: a scene may hold at most 8388608 bytes");
+  EXPECT_EQ(whatOf("/dev/zero"), "/dev/zero: error: a scene may hold at most 8388608 bytes");
+}
+
+TEST(SceneErrors, DeepNestingIsRefusedBeforeItOverflowsTheStack) {
+  std::string dots = "a";
+  for (int i = 0; i < 100000; ++i) dots += ".a";
+  EXPECT_THAT(errorsOf(dots + " = 1\n"),
+              ElementsAre("scene.toml:1:34: error: a key may have at most 16 dots"));
+  EXPECT_THAT(errorsOf("x = 'a.b'\n# 'it\ny = \"\"\"\n\"'\"\"\"\n[" + dots + "]\n"),
+              ElementsAre("scene.toml:5:35: error: a key may have at most 16 dots"));
+  EXPECT_EQ(errorsOf("a = " + std::string(100000, '[')).size(), 1U);
+  std::string tables;
+  for (int i = 0; i < 250; ++i) tables += "{ a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q = ";
+  EXPECT_EQ(errorsOf("a = " + tables).size(), 1U);
+  std::string closed = "a = " + tables + "1";
+  for (int i = 0; i < 250; ++i) closed += '}';
+  EXPECT_EQ(errorsOf(closed).size(), 1U);
+}
+
+TEST(SceneErrors, DotsOfTextAreNotThoseOfKeys) {
+  const std::string dots(200, '.');
+  EXPECT_EQ(test::sceneOf("# " + dots + "\ntitle = \"" + dots + "\\\"" + dots + "\"\n").title,
+            dots + '"' + dots);
+  EXPECT_EQ(test::sceneOf("title = '''\n" + dots + "\n" + dots + "''' # " + dots).title, dots + '\n' + dots);
+}
+
+TEST(SceneErrors, ThereAreNeverMoreThanAThousand) {
+  std::string text;
+  for (int i = 0; i < 20000; ++i) text += "[[launch]]\n";
+  EXPECT_EQ(errorsOf(text).size(), 1000U);
+}
+
+/// Whatever is parsed ends with a scene or with located errors; anything else (a crash, another exception)
+/// fails.
+void parseSafely(const std::string& text) {
+  try {
+    static_cast<void>(test::sceneOf(text));
+  } catch (const SceneError& error) {
+    ASSERT_FALSE(error.diagnostics().empty()) << text;
+    for (const Diagnostic& diagnostic : error.diagnostics()) {
+      ASSERT_EQ(diagnostic.message.find('\n'), std::string::npos) << diagnostic.message;
+      ASSERT_EQ(diagnostic.message.find('\x1b'), std::string::npos) << diagnostic.message;
+    }
+  }
+}
+
+std::string richScene() {
+  return std::string(test::designScene()) +
+         "linear = 0.1\n[view]\npixels_per_metre = 2\ny_up = true\n[[body]]\nname = \"sun\"\nshape = "
+         "\"rectangle\"\n"
+         "position = [1, 2]\nsize = [3, 4]\nfill = \"#12345678\"\n[[force]]\ntype = \"expression\"\n"
+         "fx = \"sin(x)^2 + (t > 1 ? vy : -m)\"\n[[force]]\ntype = \"spring\"\nto = \"sun\"\nstiffness = 2\n";
+}
+
+TEST(SceneErrors, TruncatedScenesNeverCrash) {
+  const std::string scene = richScene();
+  for (std::size_t length = 0; length < scene.size(); length += 3) parseSafely(scene.substr(0, length));
+}
+
+TEST(SceneErrors, ScenesWithFlippedBytesNeverCrash) {
+  const std::string scene = richScene();
+  std::mt19937 random(2022);
+  for (int round = 0; round < 2000; ++round) {
+    std::string text = scene;
+    for (auto flips = random() % 4 + 1; flips > 0; --flips) {
+      text[random() % text.size()] =
+          static_cast<char>(random() % 4 == 0 ? random() % 256 : "[]{}=.\"'#,-09\n e"[random() % 16]);
+    }
+    parseSafely(text);
+  }
+}
+
+TEST(SceneErrors, ScenesWithShuffledLinesNeverCrash) {
+  const std::string scene = richScene();
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < scene.size();) {
+    const std::size_t end = scene.find('\n', begin);
+    lines.push_back(scene.substr(begin, end - begin + 1));
+    begin = end + 1;
+  }
+  std::mt19937 random(1);
+  for (int round = 0; round < 300; ++round) {
+    std::string text;
+    for (int i = 0; i < 30; ++i) text += lines[random() % lines.size()];
+    parseSafely(text);
+  }
+}
+
+} // namespace
+} // namespace offstage
