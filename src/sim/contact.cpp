@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace offstage {
@@ -29,21 +30,22 @@ std::optional<Contact> betweenRectangleAndCircle(const Body& rectangle, const Bo
   const Vec2 high = low + rectangle.size;
   const Vec2& c = circle.position;
   const std::array<double, 4> depths{c.x() - low.x(), high.x() - c.x(), c.y() - low.y(), high.y() - c.y()};
+  if (std::any_of(depths.begin(), depths.end(), [](double depth) { return std::isnan(depth); }))
+    return std::nullopt;
   const auto nearest = std::min_element(depths.begin(), depths.end()); // the first of equals
-  if (std::all_of(depths.begin(), depths.end(),
-                  [](double depth) { return depth >= 0.0; })) { // the centre is inside
-    if (!(-*nearest < circle.radius)) return std::nullopt;      // a point on the edge
-    return Contact{outwardNormals()[static_cast<std::size_t>(nearest - depths.begin())], -*nearest,
-                   circle.radius};
+  const auto sideNormal = [&] {
+    return outwardNormals()[static_cast<std::size_t>(nearest - depths.begin())];
+  };
+  if (*nearest >= 0.0) {                                   // the centre is inside
+    if (!(-*nearest < circle.radius)) return std::nullopt; // a point on the edge
+    return Contact{sideNormal(), -*nearest, circle.radius};
   }
   const Vec2 closest(std::clamp(c.x(), low.x(), high.x()), std::clamp(c.y(), low.y(), high.y()));
   const Vec2 d = c - closest;
   const double distance = length(d);
   if (!(distance < circle.radius)) return std::nullopt;
-  // Outside by less than a square root can tell from 0, the nearest side's normal is the direction.
-  const Vec2 normal = distance > 0.0 ? Vec2(d / distance)
-                                     : outwardNormals()[static_cast<std::size_t>(nearest - depths.begin())];
-  return Contact{normal, distance, circle.radius};
+  // Nearer than a double's square can tell from 0, the nearest side gives the direction.
+  return Contact{distance > 0.0 ? Vec2(d / distance) : sideNormal(), distance, circle.radius};
 }
 
 std::optional<Contact> betweenRectangles(const Body& first, const Body& second) {
