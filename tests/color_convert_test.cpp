@@ -17,7 +17,7 @@ using test::errorOf;
 using test::flatFrame;
 using test::noiseFrame;
 
-/// ITU-R BT.709-6 in doubles, not rounded: items 3.2 and 3.3, quantised as item 4.6 with n = 8.
+/// ITU-R BT.709-6, section 3, in doubles and not rounded.
 std::array<double, 3> referenceYuv(double red, double green, double blue) {
   const double y = (0.2126 * red + 0.7152 * green + 0.0722 * blue) / 255.0;
   return {219.0 * y + 16.0, 224.0 * (blue / 255.0 - y) / 1.8556 + 128.0,

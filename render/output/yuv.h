@@ -24,11 +24,11 @@ constexpr int evenSize(int size) {
   return size + size % 2;
 }
 
-/// Converts RGBA8 to 8-bit YUV 4:2:0 of ITU-R BT.709-6 in limited range, alpha left out. With R, G, B in 0 …
-/// 1:
-///   E'Y = 0.2126 R + 0.7152 G + 0.0722 B          (item 3.2)
-///   E'CB = (B − E'Y)/1.8556, E'CR = (R − E'Y)/1.5748  (item 3.3)
-///   Y = round(219 E'Y + 16), Cb = round(224 E'CB + 128), Cr = round(224 E'CR + 128)  (item 4.6)
+/// Converts RGBA8 to 8-bit YUV 4:2:0 in limited range, alpha left out, by ITU-R BT.709-6, section 3 (signal
+/// format). With R, G and B from 0 to 1:
+///   E'Y = 0.2126 R + 0.7152 G + 0.0722 B
+///   E'CB = (B − E'Y)/1.8556, E'CR = (R − E'Y)/1.5748
+///   Y = round(219 E'Y + 16), Cb = round(224 E'CB + 128), Cr = round(224 E'CR + 128)
 /// in integers, so that every machine and compiler gives the same bytes. Each byte is within 0.506 of the
 /// value before rounding (measured over all 2^24 colours; 0.14 % of them differ from the exactly rounded
 /// value, by 1). Greys have Cb = Cr = 128 exactly, white is 235, black 16.
