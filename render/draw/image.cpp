@@ -83,6 +83,11 @@ Image loadImage(const std::filesystem::path& file, const SourceLocation& where) 
   if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide) {
     fail(where, file, fmt::format("is {}x{} px; each side may be 1 to {}", width, height, kLargestSide));
   }
+  // A few bytes must not claim a gigabyte: deflate, the densest of the formats' codings, packs at most 1032
+  // bytes into one, and a pixel has at least one bit.
+  if (static_cast<std::int64_t>(width) * height > static_cast<std::int64_t>(length) * 1032 * 8) {
+    fail(where, file, fmt::format("is damaged (too short for {}x{} px)", width, height));
+  }
   const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
       stbi_load_from_memory(bytes->data(), length, &width, &height, &channels, STBI_rgb_alpha),
       stbi_image_free);

@@ -17,8 +17,7 @@ namespace {
 
 /// Consecutive instances that one draw call paints.
 struct Batch {
-  Coverage coverage;
-  PaintSource paint;
+  ProgramKind program;
   std::size_t first;
   std::size_t count;
 };
@@ -59,19 +58,22 @@ void Canvas::Impl::collect(const Picture& picture) {
                        std::min(picture.clip.bottom, picture.height)};
   if (clip.empty()) return;
   for (const Primitive& primitive : picture.primitives) {
-    std::optional<Drawable> drawable = makeDrawable(primitive, clip);
+    std::optional<Drawable> drawable = makeDrawable(primitive, clip, device->largestPoint());
     if (!drawable) continue;
-    PaintSource paint = PaintSource::Color;
+    ProgramKind program{drawable->coverage, PaintSource::Color, drawable->footprint};
     if (primitive.pattern >= 0) {
       const PlacedPattern& pattern = picture.patterns.at(static_cast<std::size_t>(primitive.pattern));
-      paint = patterns.place(pattern, drawable->instance) ? PaintSource::Reduced : PaintSource::Pattern;
+      program.paint =
+          patterns.place(pattern, drawable->instance) ? PaintSource::Reduced : PaintSource::Pattern;
     }
-    if (batches.empty() || batches.back().coverage != drawable->coverage || batches.back().paint != paint) {
-      batches.push_back({drawable->coverage, paint, instances.size(), 0});
+    if (batches.empty() || batches.back().program != program) {
+      instances.fillVector();
+      batches.push_back({program, instances.size(), 0});
     }
     instances.add(drawable->instance);
-    ++batches.back().count;
+    batches.back().count = instances.size() - batches.back().first;
   }
+  instances.fillVector();
 }
 
 void Canvas::Impl::paint() {
@@ -79,10 +81,11 @@ void Canvas::Impl::paint() {
   instances.upload();
   patterns.bind();
   gl.enable(GL_BLEND);
+  gl.enable(GL_PROGRAM_POINT_SIZE);
   gl.blendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA); // premultiplied source over premultiplied framebuffer
   for (const Batch& batch : batches) {
-    shaders.use(batch.coverage, batch.paint);
-    instances.draw(batch.first, batch.count);
+    shaders.use(batch.program);
+    instances.draw(batch.program.footprint, batch.first, batch.count);
   }
 }
 

@@ -38,6 +38,9 @@ GlDevice::GlDevice(std::unique_ptr<GlContext> context)
   gl_.getIntegerv(GL_MAX_RENDERBUFFER_SIZE, &renderbuffer);
   gl_.getIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
   gl_.getIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &maxTexels_);
+  std::array<GLfloat, 2> pointSizes{};
+  gl_.getFloatv(GL_POINT_SIZE_RANGE, pointSizes.data());
+  largestPoint_ = static_cast<int>(pointSizes[1]);
   maxSize_ = std::min({renderbuffer, viewport[0], viewport[1], kLargestSide});
   checkGl(gl_, "reading its limits");
 }

@@ -20,14 +20,16 @@ public:
 
   [[nodiscard]] const GlFunctions& gl() const { return gl_; }
   [[nodiscard]] std::string backend() const { return context_->backend(); }
-  [[nodiscard]] std::string text(GLenum name) const;         ///< glGetString
-  [[nodiscard]] int maxSize() const { return maxSize_; }     ///< px a side of a framebuffer
-  [[nodiscard]] int maxTexels() const { return maxTexels_; } ///< of a buffer texture
+  [[nodiscard]] std::string text(GLenum name) const;               ///< glGetString
+  [[nodiscard]] int maxSize() const { return maxSize_; }           ///< px a side of a framebuffer
+  [[nodiscard]] int largestPoint() const { return largestPoint_; } ///< px a side of GL_POINTS
+  [[nodiscard]] int maxTexels() const { return maxTexels_; }       ///< of a buffer texture
 
 private:
   std::unique_ptr<GlContext> context_;
   GlFunctions gl_;
   int maxSize_ = 0;
+  int largestPoint_ = 0;
   int maxTexels_ = 0;
 };
 

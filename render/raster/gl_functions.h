@@ -33,6 +33,7 @@ namespace offstage {
   X(deleteTextures, "glDeleteTextures", PFNGLDELETETEXTURESPROC)                                             \
   X(deleteVertexArrays, "glDeleteVertexArrays", PFNGLDELETEVERTEXARRAYSPROC)                                 \
   X(disable, "glDisable", PFNGLDISABLEPROC)                                                                  \
+  X(drawArrays, "glDrawArrays", PFNGLDRAWARRAYSPROC)                                                         \
   X(drawArraysInstanced, "glDrawArraysInstanced", PFNGLDRAWARRAYSINSTANCEDPROC)                              \
   X(enable, "glEnable", PFNGLENABLEPROC)                                                                     \
   X(enableVertexAttribArray, "glEnableVertexAttribArray", PFNGLENABLEVERTEXATTRIBARRAYPROC)                  \
@@ -43,6 +44,7 @@ namespace offstage {
   X(genTextures, "glGenTextures", PFNGLGENTEXTURESPROC)                                                      \
   X(genVertexArrays, "glGenVertexArrays", PFNGLGENVERTEXARRAYSPROC)                                          \
   X(getError, "glGetError", PFNGLGETERRORPROC)                                                               \
+  X(getFloatv, "glGetFloatv", PFNGLGETFLOATVPROC)                                                            \
   X(getIntegerv, "glGetIntegerv", PFNGLGETINTEGERVPROC)                                                      \
   X(getProgramInfoLog, "glGetProgramInfoLog", PFNGLGETPROGRAMINFOLOGPROC)                                    \
   X(getProgramiv, "glGetProgramiv", PFNGLGETPROGRAMIVPROC)                                                   \

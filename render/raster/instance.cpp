@@ -12,6 +12,9 @@ constexpr double kInvisibleRadius = 0.02;
 /// Where saturating terms are cut off: far outside any canvas, small enough for exact float arithmetic.
 constexpr double kFar = 1e6;
 
+/// 1/px; a curvature of 0 says that there is no edge, and a float cannot hold that of the largest doubles.
+constexpr double kLeastCurvature = 1e-30;
+
 /// The pixels that low…high touches inside `clip`. Comparisons are written so that NaN gives none.
 PixelRect touchedPixels(const Vec2& low, const Vec2& high, const PixelRect& clip) {
   if (!(low.x() < clip.right && low.y() < clip.bottom && high.x() > clip.left && high.y() > clip.top)) {
@@ -42,11 +45,21 @@ double safeLength(const Vec2& v) {
   return scale > 0.0 ? scale * length(v / scale) : 0.0;
 }
 
-std::array<float, 4> circleEdge(const Vec2& fromCenter, double radius) {
+std::array<float, 4> arcEdge(const Vec2& fromCenter, double radius) {
+  return {static_cast<float>(fromCenter.x()), static_cast<float>(fromCenter.y()),
+          static_cast<float>(radius * radius), 0.0F};
+}
+
+std::array<float, 4> anyEdge(const Vec2& fromCenter, double radius) {
   const double distance = safeLength(fromCenter);
   const double c = 0.5 * (distance - radius) * (distance / radius + 1.0);
   return {static_cast<float>(fromCenter.x() / radius), static_cast<float>(fromCenter.y() / radius),
-          static_cast<float>(1.0 / radius), static_cast<float>(std::clamp(c, -kFar, kFar))};
+          static_cast<float>(std::max(1.0 / radius, kLeastCurvature)),
+          static_cast<float>(std::clamp(c, -kFar, kFar))};
+}
+
+bool isArc(double radius) {
+  return radius >= kLeastArcRadius && radius <= kMostArcRadius;
 }
 
 std::array<float, 4> boxEdges(const Vec2& low, const Vec2& high, const Vec2& origin) {
@@ -55,41 +68,70 @@ std::array<float, 4> boxEdges(const Vec2& low, const Vec2& high, const Vec2& ori
           near(high.y() - origin.y())};
 }
 
+void setCircle(const Primitive& primitive, const PixelRect& clip, Drawable& drawable) {
+  Instance& instance = drawable.instance;
+  instance.origin = nearestPixelCorner(primitive.center, clip);
+  const Vec2 fromCenter = Vec2(instance.origin[0], instance.origin[1]) - primitive.center;
+  const double inner = primitive.kind == Primitive::Kind::Ring ? primitive.inner : 0.0;
+  const bool hole = inner >= kInvisibleRadius;
+  const bool arcs = isArc(primitive.outer) && (!hole || isArc(inner));
+  const auto edge = arcs ? arcEdge : anyEdge;
+  instance.outer = edge(fromCenter, primitive.outer);
+  if (hole) instance.inner = edge(fromCenter, inner);
+  drawable.coverage = !arcs ? Coverage::AnyCircle : hole ? Coverage::Ring : Coverage::Disc;
+}
+
+void setBox(const Primitive& primitive, const PixelRect& bounds, Drawable& drawable) {
+  Instance& instance = drawable.instance;
+  const Vec2 corner(bounds.left, bounds.top);
+  instance.origin = {static_cast<std::int16_t>(bounds.left), static_cast<std::int16_t>(bounds.top)};
+  instance.outer = boxEdges(primitive.low, primitive.high, corner);
+  const bool hole = primitive.kind == Primitive::Kind::BoxRing &&
+                    primitive.innerLow.x() < primitive.innerHigh.x() &&
+                    primitive.innerLow.y() < primitive.innerHigh.y();
+  if (hole) instance.inner = boxEdges(primitive.innerLow, primitive.innerHigh, corner);
+  drawable.coverage = Coverage::Box;
+}
+
+/// The bounds, made square where a point can draw them: a circle's bounds differ by at most one pixel in
+/// width and height, and what is added lies outside the circle unless the clip has cut the bounds.
+Footprint chooseFootprint(PixelRect& bounds, const PixelRect& clip, int largestPoint) {
+  const int width = bounds.right - bounds.left;
+  const int height = bounds.bottom - bounds.top;
+  const int side = std::max(width, height);
+  const PixelRect square{bounds.left, bounds.top, bounds.left + side, bounds.top + side};
+  if (std::min(width, height) < side - 1 || side > largestPoint || square.right > clip.right ||
+      square.bottom > clip.bottom) {
+    return Footprint::Quad;
+  }
+  bounds = square;
+  return Footprint::Point;
+}
+
 } // namespace
 
-std::optional<Drawable> makeDrawable(const Primitive& primitive, const PixelRect& clip) {
+std::optional<Drawable> makeDrawable(const Primitive& primitive, const PixelRect& clip, int largestPoint) {
   using Kind = Primitive::Kind;
   const bool round = primitive.kind == Kind::Disc || primitive.kind == Kind::Ring;
+  if (primitive.color.a == 0) return std::nullopt;
+  if (round && !(primitive.outer >= kInvisibleRadius && std::isfinite(primitive.outer))) return std::nullopt;
   const Vec2 reach(primitive.outer, primitive.outer);
   const Vec2 low = round ? Vec2(primitive.center - reach) : primitive.low;
   const Vec2 high = round ? Vec2(primitive.center + reach) : primitive.high;
-  const PixelRect bounds = touchedPixels(low, high, clip);
-  if (bounds.empty() || primitive.color.a == 0) return std::nullopt;
+  PixelRect bounds = touchedPixels(low, high, clip);
+  if (bounds.empty()) return std::nullopt;
 
   Drawable drawable{};
+  if (round) {
+    setCircle(primitive, clip, drawable);
+  } else {
+    setBox(primitive, bounds, drawable);
+  }
+  drawable.footprint = chooseFootprint(bounds, clip, largestPoint);
   Instance& instance = drawable.instance;
   instance.quad = {static_cast<std::uint16_t>(bounds.left), static_cast<std::uint16_t>(bounds.top),
                    static_cast<std::uint16_t>(bounds.right), static_cast<std::uint16_t>(bounds.bottom)};
   instance.color = {primitive.color.r, primitive.color.g, primitive.color.b, primitive.color.a};
-  if (round) {
-    if (!(primitive.outer >= kInvisibleRadius) || !std::isfinite(primitive.outer)) return std::nullopt;
-    const double inner = primitive.kind == Kind::Ring ? primitive.inner : 0.0;
-    const bool hole = inner >= kInvisibleRadius;
-    instance.origin = nearestPixelCorner(primitive.center, clip);
-    const Vec2 fromCenter = Vec2(instance.origin[0], instance.origin[1]) - primitive.center;
-    instance.outer = circleEdge(fromCenter, primitive.outer);
-    if (hole) instance.inner = circleEdge(fromCenter, inner);
-    const bool smallEdge = primitive.outer < kParabolaRadius || (hole && inner < kParabolaRadius);
-    drawable.coverage = smallEdge ? Coverage::Small : hole ? Coverage::Ring : Coverage::Disc;
-  } else {
-    const Vec2 corner(bounds.left, bounds.top);
-    instance.origin = {static_cast<std::int16_t>(bounds.left), static_cast<std::int16_t>(bounds.top)};
-    instance.outer = boxEdges(primitive.low, primitive.high, corner);
-    const bool hole = primitive.kind == Kind::BoxRing && primitive.innerLow.x() < primitive.innerHigh.x() &&
-                      primitive.innerLow.y() < primitive.innerHigh.y();
-    if (hole) instance.inner = boxEdges(primitive.innerLow, primitive.innerHigh, corner);
-    drawable.coverage = Coverage::Box;
-  }
   return drawable;
 }
 

@@ -11,26 +11,36 @@ namespace offstage {
 /// How the fragment shader computes the part of a pixel that a primitive covers. Each is a program of its
 /// own, so that the common ones stay cheap.
 enum class Coverage : std::uint8_t {
-  Disc,  ///< one circle edge of at least kParabolaRadius
-  Ring,  ///< two such edges
-  Small, ///< a disc or ring with a smaller edge
-  Box,   ///< a rectangle, with or without a rectangular hole
+  Disc,      ///< a circle of kLeastArcRadius to kMostArcRadius
+  Ring,      ///< two such circles
+  AnyCircle, ///< a disc or ring of any radii
+  Box,       ///< a rectangle, with or without a rectangular hole
 };
 inline constexpr std::size_t kCoverageCount = 4;
 
-/// From this radius on, the edge inside a pixel is taken as the parabola that osculates it. Error of the
-/// coverage: 1.3/255 at this radius, 0.8/255 at 6 px, 0.5/255 from 12 px on (measured against the exact
-/// area).
-inline constexpr double kParabolaRadius = 4.0;
+/// From this radius on, the edge inside a pixel is taken as the parabola that osculates it, and integrated
+/// over six columns. Measured error against the exact area: 1.3/255 at this radius, 1.0/255 from 8 px on.
+inline constexpr double kLeastArcRadius = 5.0;
+
+/// Up to this radius, floats from the circle's centre are precise enough (1e-4 px).
+inline constexpr double kMostArcRadius = 1024.0;
+
+/// What GL draws for an instance. A point costs llvmpipe two thirds of a quad, but is square.
+enum class Footprint : std::uint8_t { Point, Quad };
+inline constexpr std::size_t kFootprintCount = 2;
 
 /// What the vertex shader reads of one primitive; render/raster/shaders.cpp holds the formulas.
 struct Instance {
-  std::array<std::uint16_t, 4> quad{};  ///< px: left, top, right, bottom of the pixels to shade
+  /// px: left, top, right, bottom of the pixels to shade; all 0: nothing is drawn. Square for a point.
+  std::array<std::uint16_t, 4> quad{};
   std::array<std::int16_t, 2> origin{}; ///< px: the point that edges and pattern are expressed from
   std::array<std::uint8_t, 4> color{};  ///< r, g, b, a; not premultiplied
-  /// Circles: {n.x, n.y, 1/r, c} with D = origin − centre, n = D/r, c = (|D|² − r²)/(2r), so that
-  /// g(p) = c + p·n + |p|²/(2r) is the pixel's distance from the edge to first order (positive outside), with
-  /// no large numbers cancelling however large r is. Boxes: {low.x, low.y, high.x, high.y} from the origin.
+  /// With D = origin − centre,
+  /// Disc, Ring: {D.x, D.y, r², 0};
+  /// AnyCircle: {n.x, n.y, 1/r, c} with n = D/r, c = (|D|² − r²)/(2r), so that g(p) = c + p·n + |p|²/(2r) is
+  /// a pixel's distance from the edge to first order (positive outside), with no large numbers cancelling
+  /// however large r is;
+  /// Box: {low.x, low.y, high.x, high.y} from the origin.
   std::array<float, 4> outer{};
   std::array<float, 4> inner{};         ///< the hole, in the same form; a box without one has low = high
   std::array<std::int32_t, 4> texels{}; ///< pattern: first texel in the store, width, height, 1 if it repeats
@@ -38,12 +48,15 @@ struct Instance {
   std::array<float, 2> window{1.0F, 1.0F}; ///< pattern: texels to average along each axis, 1 … 2
 };
 
-/// The shape of a primitive made ready: quad, origin, edges and colour are set. Nothing when it touches no
-/// pixel of `clip`, which lies inside the canvas.
+/// A primitive made ready: quad, origin, edges and colour of the instance are set.
 struct Drawable {
   Instance instance;
   Coverage coverage;
+  Footprint footprint;
 };
-std::optional<Drawable> makeDrawable(const Primitive& primitive, const PixelRect& clip);
+
+/// Nothing when the primitive touches no pixel of `clip`, which lies inside the canvas. `largestPoint` is the
+/// side of GL's largest point in px.
+std::optional<Drawable> makeDrawable(const Primitive& primitive, const PixelRect& clip, int largestPoint);
 
 } // namespace offstage

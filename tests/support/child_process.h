@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace offstage::test {
+
+struct ChildResult {
+  int exitStatus = -1; ///< −1: it did not end by itself
+  std::string output;  ///< stdout and stderr
+};
+
+/// Runs one test of this test program in a process of its own, with changes to the environment: Mesa reads
+/// its settings once a process.
+ChildResult runTestInChild(const std::string& filter,
+                           const std::vector<std::pair<std::string, std::string>>& environment);
+
+} // namespace offstage::test
