@@ -10,6 +10,8 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <sstream>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -29,6 +31,12 @@ private:
   AtomicFile file_;
 };
 
+void printNotice(const std::string& notice) {
+  std::istringstream lines(notice);
+  for (std::string line; std::getline(lines, line);)
+    if (!line.empty()) fmt::print(stderr, "offstage: {}\n", line);
+}
+
 } // namespace
 
 RenderResult render(Source& source, const RenderOptions& options) {
@@ -41,6 +49,7 @@ RenderResult render(Source& source, const RenderOptions& options) {
 
   // Everything that can be refused is refused here, before a frame costs time.
   std::unique_ptr<Sink> sink;
+  std::string said; // of the sink's notice
   if (!options.out.empty()) {
     sink = makeSink(options.out, {picture.width, picture.height, picture.background.a != 255, schedule.fps(),
                                   source.title()});
@@ -69,7 +78,10 @@ RenderResult render(Source& source, const RenderOptions& options) {
     progress.update(index + 1, bytes());
   }
   throwIfInterrupted();
-  if (sink) sink->finish();
+  if (sink) {
+    sink->finish();
+    printNotice(sink->notice().substr(said.size())); // what only the whole told
+  }
   if (hashes) hashes->finish();
   progress.finish(bytes());
 
