@@ -1,5 +1,7 @@
 #include "src/scene/toml_depth.h"
 
+#include <algorithm>
+
 namespace offstage {
 namespace {
 
@@ -28,7 +30,7 @@ std::size_t skippedLength(std::string_view text) {
   return text.size();
 }
 
-void advance(TextPosition& position, std::string_view passed) {
+void advance(TooDeep& position, std::string_view passed) {
   for (const char byte : passed) {
     if (byte == '\n') {
       ++position.line;
@@ -41,18 +43,22 @@ void advance(TextPosition& position, std::string_view passed) {
 
 } // namespace
 
-std::optional<TextPosition> findTooDeepKey(std::string_view text) {
-  TextPosition position;
+std::optional<TooDeep> findTooDeep(std::string_view text) {
+  TooDeep position;
   std::size_t dots = 0;
+  std::size_t nested = 0;
   std::size_t i = 0;
   while (i < text.size()) {
-    std::size_t length = skippedLength(text.substr(i));
-    if (length > text.size() - i) length = text.size() - i;
+    std::size_t length = std::min(skippedLength(text.substr(i)), text.size() - i);
     if (length == 0) {
       length = 1;
+      const char letter = text[i];
       // A key ends at any of these; between them stands one key or one number, which has one dot.
-      if (std::string_view("=,[]{}\n").find(text[i]) != std::string_view::npos) dots = 0;
-      if (text[i] == '.' && ++dots > kMaxDotsInKey) return position;
+      if (std::string_view("=,[]{}\n").find(letter) != std::string_view::npos) dots = 0;
+      position.isKey = letter == '.';
+      if (position.isKey && ++dots > kMaxDotsInKey) return position;
+      if ((letter == '[' || letter == '{') && ++nested > kMaxNestedValues) return position;
+      if ((letter == ']' || letter == '}') && nested > 0) --nested;
     }
     advance(position, text.substr(i, length));
     i += length;

@@ -71,9 +71,10 @@ std::string TomlValue::description() const {
 }
 
 std::optional<TomlValue> parseToml(std::string_view text, const std::string& file, Diagnostic& error) {
-  if (const auto tooDeep = findTooDeepKey(text)) {
+  if (const auto tooDeep = findTooDeep(text)) {
     error = {{file, tooDeep->line, tooDeep->column},
-             fmt::format("a key may have at most {} dots", kMaxDotsInKey)};
+             tooDeep->isKey ? fmt::format("a key may have at most {} dots", kMaxDotsInKey)
+                            : fmt::format("values may be nested at most {} deep", kMaxNestedValues)};
     return std::nullopt;
   }
   try {
