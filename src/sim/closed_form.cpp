@@ -76,6 +76,39 @@ std::optional<std::string> problemOf(const Force& force) {
 
 } // namespace
 
+std::optional<std::string> ClosedForm::choose(const WorldSetup& setup, const Body& body) {
+  const Force* only = nullptr;
+  for (const Force& force : setup.forces) {
+    if (isNothing(force)) continue;
+    const auto* spring = std::get_if<SpringForce>(&force.kind);
+    if (spring != nullptr && spring->to.body == body.id) return "a spring of another body hangs on it";
+    if (!actsOn(force, body)) continue;
+    if (only != nullptr) return "several forces act on it";
+    if (auto problem = problemOf(force)) return problem;
+    only = &force;
+  }
+  const Vec2 uniform = (body.feelsGravity ? setup.gravity : Vec2::Zero()) + body.acceleration;
+  if (only == nullptr) {
+    law_.emplace<laws::Uniform>().acceleration = uniform;
+    return std::nullopt;
+  }
+  // Forces act at the centre; the closed form moves Body::position, so points are shifted by the difference.
+  const Vec2 shift = centre(body, Vec2::Zero());
+  if (const auto* spring = std::get_if<SpringForce>(&only->kind)) {
+    const double square = spring->stiffness / body.mass;
+    auto& law = law_.emplace<laws::Oscillation>();
+    law.centre = (spring->to.point - shift) + uniform / square;
+    law.omega = strict::sqrt(square);
+    return std::nullopt;
+  }
+  if (uniform != Vec2::Zero()) return "gravity or an acceleration of its own acts beside the attraction";
+  const auto& attract = std::get<AttractForce>(only->kind);
+  auto& law = law_.emplace<laws::Orbit>();
+  law.focus = attract.to.point - shift;
+  law.strength = attract.strength;
+  return std::nullopt;
+}
+
 std::optional<std::string> ClosedForm::anchor(const Motion& start, double time) {
   start_ = start;
   time_ = time;
@@ -135,47 +168,18 @@ Motion ClosedForm::along(const laws::Orbit& law, double t) const {
   return {law.focus + (d * f + v * g), d * fRate + v * gRate};
 }
 
-std::variant<ClosedForm, std::string> closedForm(const WorldSetup& setup, const Body& body) {
-  const Vec2 uniform = (body.feelsGravity ? setup.gravity : Vec2::Zero()) + body.acceleration;
-  const Force* only = nullptr;
-  for (const Force& force : setup.forces) {
-    if (isNothing(force)) continue;
-    const auto* spring = std::get_if<SpringForce>(&force.kind);
-    if (spring != nullptr && spring->to.body == body.id) return "a spring of another body hangs on it";
-    if (!actsOn(force, body)) continue;
-    if (only != nullptr) return "several forces act on it";
-    if (auto problem = problemOf(force)) return *problem;
-    only = &force;
-  }
-  if (only == nullptr) return ClosedForm(laws::Uniform{uniform});
-  // Forces act at the centre; the closed form moves Body::position, so points are shifted by the difference.
-  const Vec2 shift = centre(body, Vec2::Zero());
-  if (const auto* spring = std::get_if<SpringForce>(&only->kind)) {
-    const double square = spring->stiffness / body.mass;
-    return ClosedForm(laws::Oscillation{(spring->to.point - shift) + uniform / square, strict::sqrt(square)});
-  }
-  const auto& attract = std::get<AttractForce>(only->kind);
-  if (uniform != Vec2::Zero()) return "gravity or an acceleration of its own acts beside the attraction";
-  laws::Orbit orbit;
-  orbit.focus = attract.to.point - shift;
-  orbit.strength = attract.strength;
-  return ClosedForm(orbit);
-}
-
 std::optional<std::string> closedFormProblem(const WorldSetup& setup, const Body& body) {
   if (body.fixed) return std::nullopt; // it never moves
-  auto form = closedForm(setup, body);
-  if (auto* problem = std::get_if<std::string>(&form)) return *problem;
-  return std::get<ClosedForm>(form).anchor({body.position, body.velocity}, 0.0);
+  ClosedForm form;
+  if (auto problem = form.choose(setup, body)) return problem;
+  return form.anchor({body.position, body.velocity}, 0.0);
 }
 
 std::optional<std::string> closedFormForceProblem(const WorldSetup& setup, const Body& prototype) {
   Body unborn = prototype;
   unborn.id = 0xffffffffU; // no force is tied to a body that does not exist yet
   if (unborn.fixed) return std::nullopt;
-  const auto form = closedForm(setup, unborn);
-  if (const auto* problem = std::get_if<std::string>(&form)) return *problem;
-  return std::nullopt;
+  return ClosedForm().choose(setup, unborn);
 }
 
 } // namespace offstage

@@ -49,6 +49,9 @@ struct Orbit {
 /// sin and cos are those of strict_math.h, so that the bits are the same everywhere.
 class ClosedForm {
 public:
+  /// Takes the law from the forces of a setup that act on a body. Returns why there is none, or nothing.
+  [[nodiscard]] std::optional<std::string> choose(const WorldSetup& setup, const Body& body);
+
   /// Starts the motion anew at `start`, the state at `time` (s). Returns why there is no closed form from
   /// there (the orbit is not an ellipse), or nothing.
   [[nodiscard]] std::optional<std::string> anchor(const Motion& start, double time);
@@ -56,10 +59,6 @@ public:
   [[nodiscard]] Motion at(double time) const; ///< s; of the world, not since the anchor
 
 private:
-  friend std::variant<ClosedForm, std::string> closedForm(const WorldSetup& setup, const Body& body);
-
-  explicit ClosedForm(const std::variant<laws::Uniform, laws::Oscillation, laws::Orbit>& law) : law_(law) {}
-
   [[nodiscard]] Motion along(const laws::Uniform& law, double t) const;
   [[nodiscard]] Motion along(const laws::Oscillation& law, double t) const;
   [[nodiscard]] Motion along(const laws::Orbit& law, double t) const;
@@ -68,9 +67,6 @@ private:
   Motion start_;
   double time_ = 0.0;
 };
-
-/// The closed form of a body among the forces of a setup, not yet anchored; or why there is none.
-std::variant<ClosedForm, std::string> closedForm(const WorldSetup& setup, const Body& body);
 
 /// Why a body whose integrator is (or were to be) Exact has no closed form: forces that have none (drag,
 /// wind, a custom force, a spring with a length or damping, one tied to a body, several at once, …), or a

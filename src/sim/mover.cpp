@@ -23,12 +23,10 @@ Mover::Mover(const WorldSetup& setup) : field_(setup) {}
 
 void Mover::add(const WorldSetup& setup, const Body& body, double time) {
   if (!isExact(body)) return;
-  auto form = closedForm(setup, body);
-  if (const auto* problem = std::get_if<std::string>(&form)) refuse(body, time, *problem);
-  const Motion start{body.position, body.velocity};
-  auto& anchored = std::get<ClosedForm>(form);
-  if (const auto problem = anchored.anchor(start, time)) refuse(body, time, *problem);
-  exact_.push_back({body.id, anchored, start});
+  ExactMotion exact{body.id, {}, {body.position, body.velocity}};
+  if (const auto problem = exact.form.choose(setup, body)) refuse(body, time, *problem);
+  if (const auto problem = exact.form.anchor(exact.last, time)) refuse(body, time, *problem);
+  exact_.push_back(exact);
 }
 
 void Mover::keepOnly(std::span<const Body> living) {

@@ -37,7 +37,7 @@ ReducedAngle reduceSmall(double magnitude) {
 
 /// |x| ≤ 2^19·π/2: Cody and Waite's reduction, in as many steps as cancellation asks for.
 ReducedAngle reduceMedium(double magnitude) {
-  const auto n = static_cast<int>(magnitude * kTwoOverPi + 0.5);
+  const auto n = static_cast<int>(std::floor(magnitude * kTwoOverPi + 0.5));
   const double factor = n;
   double remainder = magnitude - factor * kPio2First;
   double tail = factor * kPio2FirstTail; // first step: good to 85 bits
