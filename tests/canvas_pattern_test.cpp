@@ -82,7 +82,9 @@ TEST(CanvasPattern, ColourOfTransparentTexelsDoesNotBleed) {
   const Frame frame = drawOnce(picture);
   for (int x = 0; x < 8; ++x) {
     EXPECT_EQ(pixel(frame, x, 0).r, 0) << x;
-    if (x > 1) EXPECT_EQ(pixel(frame, x, 0).b, 255) << x;
+    if (x > 1) {
+      EXPECT_EQ(pixel(frame, x, 0).b, 255) << x;
+    }
   }
   EXPECT_NEAR(pixel(frame, 3, 0).a, 255.0 * 1.5 / 4.0, 0.51);
 }
@@ -124,7 +126,9 @@ TEST(CanvasPattern, WindowGrowsWithoutAJump) {
     addPatternBox(picture, source, {0, 0}, {8, 4}, {width, 4}, false);
     canvas.draw(picture, frame);
     const int value = pixel(frame, 0, 1).b;
-    if (previous >= 0) EXPECT_NEAR(value, previous, 12) << "width " << width;
+    if (previous >= 0) {
+      EXPECT_NEAR(value, previous, 12) << "width " << width;
+    }
     previous = value;
   }
 }

@@ -29,7 +29,7 @@ Texel texel(const Image& image, int x, int y) {
 
 /// A BMP of 24 bits, rows bottom-up as the format has them. `claim*` are the sizes written into its header.
 std::string bmp(int width, int height, int claimWidth, int claimHeight) {
-  const auto little = [](std::uint32_t value, int bytes) {
+  const auto little = [](std::uint64_t value, int bytes) {
     std::string text;
     for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> (8 * i) & 255U);
     return text;
@@ -38,7 +38,8 @@ std::string bmp(int width, int height, int claimWidth, int claimHeight) {
   std::string file =
       "BM" + little(static_cast<std::uint32_t>(54 + stride * height), 4) + little(0, 4) + little(54, 4);
   file += little(40, 4) + little(static_cast<std::uint32_t>(claimWidth), 4) +
-          little(static_cast<std::uint32_t>(claimHeight), 4) + little(1, 2) + little(24, 2) + little(0, 24);
+          little(static_cast<std::uint32_t>(claimHeight), 4) + little(1, 2) + little(24, 2) + little(0, 8) +
+          little(0, 8) + little(0, 8);
   for (int y = height - 1; y >= 0; --y) {
     std::string row;
     for (int x = 0; x < width; ++x)

@@ -1,5 +1,6 @@
 #include "render/draw/image.h"
 
+#include "render/draw/jpeg_tables.h"
 #include "src/scene/diagnostic.h"
 #include "src/sim/error.h"
 
@@ -73,6 +74,8 @@ Image loadImage(const std::filesystem::path& file, const SourceLocation& where) 
   // stb counts bytes in int; a file beyond that cannot be handed over.
   if (bytes->size() > 0x7fffffffUL) fail(where, file, "is larger than 2 GiB");
   const auto length = static_cast<int>(bytes->size());
+
+  if (!jpegTablesFit(*bytes)) fail(where, file, "is damaged (a Huffman table with more than 256 codes)");
 
   int width = 0;
   int height = 0;

@@ -15,7 +15,6 @@ namespace {
 struct EglFunctions {
   decltype(&eglGetPlatformDisplay) getPlatformDisplay = nullptr;
   decltype(&eglInitialize) initialize = nullptr;
-  decltype(&eglTerminate) terminate = nullptr;
   decltype(&eglBindAPI) bindApi = nullptr;
   decltype(&eglChooseConfig) chooseConfig = nullptr;
   decltype(&eglCreateContext) createContext = nullptr;
@@ -27,7 +26,6 @@ struct EglFunctions {
   explicit EglFunctions(const DynamicLibrary& library) {
     load(library, getPlatformDisplay, "eglGetPlatformDisplay");
     load(library, initialize, "eglInitialize");
-    load(library, terminate, "eglTerminate");
     load(library, bindApi, "eglBindAPI");
     load(library, chooseConfig, "eglChooseConfig");
     load(library, createContext, "eglCreateContext");
@@ -46,6 +44,8 @@ private:
   }
 };
 
+/// The display stays initialised until the process ends: there is one a process, and ending it would unload
+/// the driver.
 class EglContext final : public GlContext {
 public:
   explicit EglContext(const EglFunctions& egl) : egl_(egl) {}
@@ -54,7 +54,6 @@ public:
     if (display_ == EGL_NO_DISPLAY) return;
     egl_.makeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     if (context_ != EGL_NO_CONTEXT) egl_.destroyContext(display_, context_);
-    egl_.terminate(display_);
   }
 
   /// Makes display and context, and the context current. False, with a reason, when a step fails.

@@ -6,6 +6,22 @@
 
 #include <GL/osmesa.h>
 
+#if defined(__SANITIZE_ADDRESS__)
+#define OFFSTAGE_WITH_LEAK_SANITIZER
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define OFFSTAGE_WITH_LEAK_SANITIZER
+#endif
+#endif
+#ifdef OFFSTAGE_WITH_LEAK_SANITIZER
+/// Read by LeakSanitizer. OSMesa keeps what it makes for a context's window (480 bytes) when the context
+/// goes, and what LLVM and EGL keep until the process ends is theirs too.
+extern "C" const char* __lsan_default_suppressions();  // NOLINT(bugprone-reserved-identifier)
+extern "C" const char* __lsan_default_suppressions() { // NOLINT(bugprone-reserved-identifier)
+  return "leak:libOSMesa.so\nleak:libEGL\nleak:swrast_dri.so\nleak:libLLVM\n";
+}
+#endif
+
 namespace offstage {
 namespace {
 
