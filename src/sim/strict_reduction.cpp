@@ -84,11 +84,11 @@ constexpr int kFirstDigits = 5;         ///< of the product, before cancellation
 constexpr std::size_t kMostDigits = 12; ///< far more than the 61 bits that cancel at worst need
 using Digits = std::array<std::uint64_t, kMostDigits>;
 
-/// |x|·2/π without the multiples of 8, as an octant-free quadrant and a fraction in (−1/2, 1/2].
+/// A number of quarter turns, |x|·2/π, as a whole number modulo 8 and a rest in [−1/2, 1/2).
 struct Turns {
-  int quadrant;
-  bool negative;   ///< of the fraction
-  Digits fraction; ///< its magnitude: digit i has weight 2^(scale − 24·i)
+  int quadrant;    ///< the whole number
+  bool negative;   ///< of the rest
+  Digits fraction; ///< the rest's magnitude: digit i has weight 2^(scale − 24·i)
 };
 
 /// The `count` leading digits of (x[0] + x[1]·2^-24 + x[2]·2^-48)·2/π from digit `skipped` of 2/π on (those
