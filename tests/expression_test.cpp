@@ -135,13 +135,13 @@ TEST(Expression, DeepAndLongExpressionsNeitherCrashNorHang) {
   EXPECT_NE(errorOf(open + open), "no error");
   EXPECT_NE(errorOf(std::string(4000, '-') + "1"), "no error"); // one sign a number
   std::string tower = "1";
-  while (tower.size() < 4000) tower = "1^" + tower;
+  while (tower.size() < 4000) tower.insert(0, "1^");
   EXPECT_EQ(eval(tower), 1.0);
   std::string choices = "0";
-  while (choices.size() < 4000) choices = "x?1:" + choices;
+  while (choices.size() < 4000) choices.insert(0, "x?1:");
   EXPECT_EQ(eval(choices), 0.0);
   std::string nested = "x";
-  while (nested.size() < 4000) nested = "max(1," + nested + ")";
+  while (nested.size() < 4000) nested.insert(0, "max(1,").append(")");
   EXPECT_EQ(eval(nested), 1.0);
 }
 

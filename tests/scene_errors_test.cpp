@@ -141,6 +141,14 @@ TEST(SceneErrors, ThereAreNeverMoreThanAThousand) {
   EXPECT_EQ(errorsOf(text).size(), 1000U);
 }
 
+TEST(SceneErrors, ForcesAreLimited) {
+  std::string text;
+  for (int i = 0; i < 10000; ++i) text += "[[force]]\ntype = \"drag\"\n";
+  EXPECT_EQ(test::sceneOf(text).world.forces.size(), 10000U);
+  EXPECT_THAT(errorsOf(text + "[[force]]\ntype = \"drag\"\n"),
+              ElementsAre("scene.toml:20001:1: error: a scene may have at most 10000 [[force]]"));
+}
+
 /// Whatever is parsed ends with a scene or with located errors; anything else (a crash, another exception)
 /// fails.
 void parseSafely(const std::string& text) {

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -23,7 +24,7 @@ using ::testing::IsEmpty;
 /// What the reference says of one key, or the parser's list.
 struct DocumentedKey {
   std::string table, key, type, unit, defaultText;
-  friend auto operator<=>(const DocumentedKey&, const DocumentedKey&) = default;
+  friend bool operator==(const DocumentedKey&, const DocumentedKey&) = default;
 };
 
 void PrintTo(const DocumentedKey& key, std::ostream* out) {
@@ -152,8 +153,8 @@ std::string sceneWith(const std::string& table, const Entries& entries) {
   std::string lines;
   std::string inlined;
   for (const auto& [key, value] : entries) {
-    lines += key + " = " + value + '\n';
-    inlined += (inlined.empty() ? "" : ", ") + key + " = " + value;
+    lines += fmt::format("{} = {}\n", key, value);
+    inlined += fmt::format("{}{} = {}", inlined.empty() ? "" : ", ", key, value);
   }
   const std::string body = "[[body]]\nname = \"b\"\ncenter = [1, 2]\nradius = 3\n";
   const std::string spawn = "[[spawn]]\nx = 1\ny = 2\nradius = 3\n";
@@ -205,7 +206,8 @@ std::string valueOf(const DocumentedKey& key) {
     Entries entries = baseOf(key.key == "collide" || key.key == "force" ? "" : key.key);
     if (key.key == "force") entries = baseOf("force.drag");
     std::string table;
-    for (const auto& [name, value] : entries) table += (table.empty() ? "" : ", ") + name + " = " + value;
+    for (const auto& [name, value] : entries)
+      table += fmt::format("{}{} = {}", table.empty() ? "" : ", ", name, value);
     if (key.key != "collide") return "[{ " + table + " }]";
     // A rule needs a group that has a body.
     return "[{ between = [\"bodies\", \"bodies\"] }]\nbody = [{ center = [1, 2], radius = 3 }]";
@@ -247,7 +249,8 @@ TEST_F(SceneReference, ListsTheParsersKeysWithTheirTypesUnitsAndDefaults) {
 
 TEST_F(SceneReference, NamesEachKeyOnce) {
   auto keys = keysOfTheParser();
-  std::sort(keys.begin(), keys.end());
+  std::sort(keys.begin(), keys.end(),
+            [](const auto& a, const auto& b) { return std::tie(a.table, a.key) < std::tie(b.table, b.key); });
   const auto twice = std::adjacent_find(keys.begin(), keys.end(), [](const auto& a, const auto& b) {
     return a.table == b.table && a.key == b.key;
   });

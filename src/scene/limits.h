@@ -15,6 +15,7 @@ inline constexpr double kMaxScale = 64.0;           ///< output pixels per scene
 inline constexpr double kMaxDuration = 86400.0;     ///< s
 inline constexpr double kMaxFps = 1e6;              ///< 1/s
 inline constexpr std::int64_t kMaxSubsteps = 10000; ///< steps per frame
+inline constexpr std::size_t kMaxForces = 10000;    ///< [[force]] tables of a scene
 inline constexpr std::size_t kMaxExpressionLength = 4096; ///< characters
 inline constexpr std::size_t kMaxDiagnostics = 1000;      ///< errors that one run lists
 

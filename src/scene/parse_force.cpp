@@ -1,4 +1,5 @@
 #include "src/scene/expression.h"
+#include "src/scene/limits.h"
 #include "src/scene/scene_builder.h"
 
 #include <utility>
@@ -119,6 +120,10 @@ void addForce(SceneBuilder& builder, const TomlValue& table, std::string_view ke
 } // namespace
 
 void parseForce(SceneBuilder& builder, const TomlValue& table) {
+  if (builder.scene.world.forces.size() == kMaxForces) {
+    builder.errors.add(table, fmt::format("a scene may have at most {} [[force]]", kMaxForces));
+    return;
+  }
   const auto type = [&]() -> std::optional<ForceType> {
     // Its unknown keys are reported by the reader that knows the type; this one only looks at the type.
     ErrorList ignored{""};

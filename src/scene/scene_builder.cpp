@@ -27,6 +27,7 @@ std::optional<std::uint32_t> findName(const Names& names, const TomlValue& value
     return std::nullopt;
   }
   if (const auto found = names.find(*name); found != names.end()) return found->second;
+  if (errors.full()) return std::nullopt;
   std::vector<std::string_view> known;
   if (names.size() <= kMostSuggested) {
     for (const auto& [candidate, index] : names) known.emplace_back(candidate);
