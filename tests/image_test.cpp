@@ -188,6 +188,18 @@ TEST(Image, SizeIsCheckedBeforeMemoryIsTaken) {
   EXPECT_NE(errorOf(folder / "none.bmp"), "no error");
 }
 
+TEST(Image, JpegTablesWithTooManyCodesAreRefused) {
+  // stb_image 2.27 writes past its table of 256 codes.
+  const TempDir folder;
+  std::string file = readFile(kJpeg);
+  const std::size_t table = file.find("\xff\xc4");
+  ASSERT_NE(table, std::string::npos);
+  for (std::size_t length = 0; length < 16; ++length) file.at(table + 5 + length) = '\x11'; // 16·17 codes
+  writeFile(folder / "codes.jpg", file);
+  EXPECT_NE(errorOf(folder / "codes.jpg").find("a Huffman table with more than 256 codes"), std::string::npos)
+      << errorOf(folder / "codes.jpg");
+}
+
 TEST(Image, TruncatedAndFlippedFilesNeverCrash) {
   const TempDir folder;
   const std::filesystem::path damaged = folder / "damaged";

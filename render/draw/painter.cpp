@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace offstage {
 namespace {
@@ -23,7 +24,7 @@ bool visible(const Viewport& viewport, const Vec2& low, const Vec2& high) {
 } // namespace
 
 Painter::Painter(Viewport viewport, Color background)
-    : viewport_(viewport), background_(bytes(background, 1.0)) {}
+    : viewport_(std::move(viewport)), background_(bytes(background, 1.0)) {}
 
 std::uint32_t Painter::addLook(const Look& look) {
   looks_.push_back(prepare(look));

@@ -62,7 +62,8 @@ void InstanceBuffer::draw(Footprint footprint, std::size_t first, std::size_t co
 
 void InstanceBuffer::setAttributes(std::size_t first) const {
   const auto at = [&](std::size_t member) {
-    return reinterpret_cast<const void*>(first * sizeof(Instance) + member); // an offset, by GL's convention
+    // GL takes offsets as pointers. NOLINTNEXTLINE(performance-no-int-to-ptr)
+    return reinterpret_cast<const void*>(first * sizeof(Instance) + member);
   };
   constexpr GLsizei kStride = sizeof(Instance);
   gl_.vertexAttribIPointer(0, 4, GL_UNSIGNED_SHORT, kStride, at(offsetof(Instance, quad)));

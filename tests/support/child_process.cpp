@@ -7,8 +7,7 @@
 
 namespace offstage::test {
 
-ChildResult runTestInChild(const std::string& filter,
-                           const std::vector<std::pair<std::string, std::string>>& environment) {
+ChildResult runTestInChild(const std::string& filter, const ChildEnvironment& environment) {
   ChildResult result;
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) return result;
@@ -19,7 +18,13 @@ ChildResult runTestInChild(const std::string& filter,
     dup2(ends[1], STDERR_FILENO);
     close(ends[0]);
     close(ends[1]);
-    for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
+    for (const auto& [name, value] : environment) {
+      if (value) {
+        setenv(name.c_str(), value->c_str(), 1);
+      } else {
+        unsetenv(name.c_str());
+      }
+    }
     execl("/proc/self/exe", "offstage_tests", filterOption.c_str(), static_cast<char*>(nullptr));
     _exit(127);
   }

@@ -32,7 +32,7 @@ private:
     return true;
   }
   void need(std::string_view token) {
-    if (!take(token)) fail("'" + std::string(token) + "'");
+    if (!take(token)) fail(std::string(token));
   }
 
   JsonValue any() {
