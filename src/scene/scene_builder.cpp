@@ -101,10 +101,7 @@ std::optional<std::filesystem::path> SceneBuilder::readFile(const TableReader& r
   };
   // A path with a zero byte would silently be cut there by the operating system's calls.
   if (name->find('\0') != std::string::npos) return reject("but a file's name holds no zero byte");
-  const std::filesystem::path path(*name);
-  if (path.is_absolute())
-    return reject("but a scene names its files relative to itself, to work on every machine");
-  std::filesystem::path file = scene.file.parent_path() / path;
+  std::filesystem::path file = scene.file.parent_path() / *name; // an absolute path stays as it is
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (status.type() == std::filesystem::file_type::not_found) {
