@@ -1,6 +1,7 @@
 #include "src/scene/diagnostic.h"
 #include "src/scene/dt_log.h"
 #include "tests/support/scene_text.h"
+#include "tests/support/temp_dir.h"
 
 #include <cstdint>
 #include <string>
@@ -90,7 +91,7 @@ TEST(DtLog, BinaryAndEndlessInputEndsWithAnError) {
 }
 
 TEST(DtLog, FilesAreRead) {
-  const test::TemporaryFolder folder;
+  const test::TempDir folder;
   EXPECT_EQ(readDtLog(folder.write("a.dt", "1\n2\n")), (Durations{1, 2}));
   EXPECT_EQ(readDtLog(OFFSTAGE_SOURCE_DIR "/tests/reference/trajectories/dt/dt60.txt").front(), 16666667);
   for (const auto& missing : {folder.path() / "none.dt", folder.path()}) {

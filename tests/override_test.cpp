@@ -1,5 +1,6 @@
 #include "src/scene/scene.h"
 #include "tests/support/scene_text.h"
+#include "tests/support/temp_dir.h"
 
 #include <limits>
 #include <string>
@@ -36,7 +37,7 @@ TEST(Override, SeedAndScaleReplaceThoseOfTheScene) {
 }
 
 TEST(Override, DtLogReplacesFpsAndItsPathIsNotRelativeToTheScene) {
-  const test::TemporaryFolder folder;
+  const test::TempDir folder;
   SceneOverrides overrides;
   overrides.dtLog = folder.write("run.dt", kLog);
   const Scene scene = sceneOf("[clock]\nfps = 60\n", overrides);
@@ -46,14 +47,14 @@ TEST(Override, DtLogReplacesFpsAndItsPathIsNotRelativeToTheScene) {
 }
 
 TEST(Override, DtLogReplacesTheScenesRecordingWhichNeedNotBeThere) {
-  const test::TemporaryFolder folder;
+  const test::TempDir folder;
   SceneOverrides overrides;
   overrides.dtLog = folder.write("run.dt", kLog);
   EXPECT_EQ(sceneOf("[clock]\nrecorded = \"not there.dt\"\n", overrides).clock.steps(), 4);
 }
 
 TEST(Override, DurationCutsARecordedClockAsTheScenesOwnDoes) {
-  const test::TemporaryFolder folder;
+  const test::TempDir folder;
   folder.write("run.dt", kLog);
   SceneOverrides overrides;
   overrides.duration = 0.06;
@@ -65,7 +66,7 @@ TEST(Override, DurationCutsARecordedClockAsTheScenesOwnDoes) {
 }
 
 TEST(Override, FpsIsOfNoEffectOnARecordedClock) {
-  const test::TemporaryFolder folder;
+  const test::TempDir folder;
   folder.write("run.dt", kLog);
   SceneOverrides overrides;
   overrides.fps = 25.0;

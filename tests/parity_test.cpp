@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <ostream>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -15,6 +16,10 @@ struct Variant {
   std::string compiler;
   std::string flags;
 };
+
+void PrintTo(const Variant& variant, std::ostream* out) {
+  *out << variant.compiler << ' ' << variant.flags;
+}
 
 class Parity : public ::testing::TestWithParam<Variant> {};
 

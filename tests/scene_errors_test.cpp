@@ -2,6 +2,7 @@
 #include "src/scene/toml_depth.h"
 #include "tests/support/scene_broken.h"
 #include "tests/support/scene_text.h"
+#include "tests/support/temp_dir.h"
 
 #include <algorithm>
 #include <random>
@@ -88,7 +89,7 @@ TEST(SceneErrors, WhatHoldsOneErrorALineAndTheExitCodeIsBadInput) {
 }
 
 TEST(SceneErrors, ErrorsOfADtLogNameTheLog) {
-  const test::TemporaryFolder folder;
+  const test::TempDir folder;
   const auto log = folder.write("a.dt", "1\nx\n");
   const auto scene = folder.write("a.toml", "[clock]\nrecorded = \"a.dt\"\nfsp = 3\n");
   EXPECT_EQ(whatOf(scene), scene.string() +
@@ -97,7 +98,7 @@ TEST(SceneErrors, ErrorsOfADtLogNameTheLog) {
 }
 
 TEST(SceneErrors, FilesThatAreNoScene) {
-  const test::TemporaryFolder folder;
+  const test::TempDir folder;
   EXPECT_EQ(whatOf(folder.path()), folder.path().string() + ": error: this is a folder, not a scene");
   const auto missing = folder.path() / "none.toml";
   EXPECT_EQ(whatOf(missing), missing.string() + ": error: cannot be read: No such file or directory");

@@ -1,6 +1,7 @@
 #include "src/scene/scene.h"
 #include "tests/support/scene_dump.h"
 #include "tests/support/scene_text.h"
+#include "tests/support/temp_dir.h"
 
 #include <algorithm>
 #include <fstream>
@@ -239,7 +240,7 @@ protected:
   }
 
 private:
-  test::TemporaryFolder folder_;
+  test::TempDir folder_;
 };
 
 TEST_F(SceneReference, ListsTheParsersKeysWithTheirTypesUnitsAndDefaults) {

@@ -8,7 +8,7 @@
 namespace offstage::test {
 
 struct ChildResult {
-  int exitStatus = -1; ///< −1: it did not end by itself
+  int exitStatus = -1; ///< 128 + signal when it was killed
   std::string output;  ///< stdout and stderr
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,10 +17,11 @@ struct ProcessResult {
 
 /// How to run it.
 struct ProcessOptions {
-  std::vector<std::pair<std::string, std::string>> environment; ///< set in addition to the test's own
-  std::filesystem::path directory;                              ///< working directory; empty: the test's
-  int interruptAfterMs = 0;                                     ///< > 0: send SIGINT after this time
-  bool closedOutput = false; ///< standard output is a pipe that nobody reads
+  /// Set in addition to the test's own; nothing: unset.
+  std::vector<std::pair<std::string, std::optional<std::string>>> environment;
+  std::filesystem::path directory; ///< working directory; empty: the test's
+  int interruptAfterMs = 0;        ///< > 0: send SIGINT after this time
+  bool closedOutput = false;       ///< standard output is a pipe that nobody reads
 };
 
 /// Runs a program to its end and collects what it prints. `arguments` starts with the program's path.

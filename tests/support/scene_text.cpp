@@ -1,10 +1,5 @@
 #include "tests/support/scene_text.h"
 
-#include <cstdlib>
-#include <fstream>
-#include <stdexcept>
-#include <system_error>
-
 namespace offstage::test {
 
 Scene sceneOf(std::string_view text, const SceneOverrides& overrides) {
@@ -19,25 +14,6 @@ std::vector<std::string> errorsOf(std::string_view text, const SceneOverrides& o
     for (const Diagnostic& diagnostic : problems.diagnostics()) errors.push_back(diagnostic.text());
   }
   return errors;
-}
-
-TemporaryFolder::TemporaryFolder() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "offstage-test-XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = pattern;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code error;
-  std::filesystem::remove_all(path_, error);
-}
-
-std::filesystem::path TemporaryFolder::write(const std::string& name, std::string_view content) const {
-  std::filesystem::path file = path_ / name;
-  std::ofstream out(file, std::ios::binary);
-  out.write(content.data(), static_cast<std::streamsize>(content.size()));
-  if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
-  return file;
 }
 
 std::string_view designScene() {

@@ -2,7 +2,6 @@
 
 #include "src/scene/scene.h"
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,21 +16,5 @@ std::vector<std::string> errorsOf(std::string_view text, const SceneOverrides& o
 
 /// The example scene of the design's "Scene files", word for word.
 std::string_view designScene();
-
-/// A folder of its own, removed with everything in it at the end of the test.
-class TemporaryFolder {
-public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// Writes a file and returns its path.
-  std::filesystem::path write(const std::string& name, std::string_view content) const;
-
-private:
-  std::filesystem::path path_;
-};
 
 } // namespace offstage::test

@@ -44,4 +44,9 @@ void writeFile(const fs::path& path, const std::string& text) {
   if (!file) throw std::runtime_error("cannot write " + path.native());
 }
 
+fs::path TempDir::write(const std::string& name, const std::string& text) const {
+  writeFile(path_ / name, text);
+  return path_ / name;
+}
+
 } // namespace offstage::test

@@ -16,6 +16,8 @@ public:
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  /// Writes a file into it and returns its path.
+  std::filesystem::path write(const std::string& name, const std::string& text) const;
   /// Names of everything in it, hidden files too, sorted; of a folder below it when `folder` is given.
   [[nodiscard]] std::vector<std::string> names(const std::string& folder = ".") const;
 
