@@ -115,13 +115,33 @@ TEST(CanvasPattern, HugeImagesDrawnSmallAreAveragedAndDoNotShimmer) {
   }
 }
 
+TEST(CanvasPattern, TilesSmallerThanAPixelShowTheImagesMean) {
+  for (const double size : {0.9, 0.1, 1e-6, 1e-300}) {
+    Picture picture = blankPicture(8, 8);
+    addPatternBox(picture, stripes(64, 8), {0, 0}, {8, 8}, {size, size}, true);
+    EXPECT_NEAR(pixel(drawOnce(picture), 5, 5).g, 127.5, 0.51) << "tiles of " << size << " px";
+  }
+}
+
+TEST(CanvasPattern, OriginsBeyondAllMeasureStillTile) {
+  const auto source = colorfulImage(8, 8, false);
+  for (const double far : {1e15, -1e100, 1e308}) {
+    Picture picture = blankPicture(8, 8);
+    addPatternBox(picture, source, {0, 0}, {8, 8}, {8, 8}, true);
+    picture.patterns[0].origin = Vec2(far, far);
+    EXPECT_EQ(pixel(drawOnce(picture), 3, 3).a, 255) << far;
+    EXPECT_NE(drawOnce(picture).hash(), drawOnce(blankPicture(8, 8)).hash()) << far;
+  }
+}
+
 TEST(CanvasPattern, WindowGrowsWithoutAJump) {
   // From JavaFX's two texels (up to 8:1) to the pixel's area (from 16:1).
   const auto source = colorfulImage(256, 4, false);
   Canvas canvas(8, 4);
   Frame frame;
   int previous = -1;
-  for (double width = 34.0; width > 14.0; width -= 0.02) {
+  for (int i = 0; i < 1000; ++i) {
+    const double width = 34.0 - 0.02 * i;
     Picture picture = blankPicture(8, 4);
     addPatternBox(picture, source, {0, 0}, {8, 4}, {width, 4}, false);
     canvas.draw(picture, frame);

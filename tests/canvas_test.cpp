@@ -2,7 +2,10 @@
 #include "src/sim/error.h"
 #include "tests/support/canvas_pictures.h"
 
+#include <fstream>
+#include <limits>
 #include <ostream>
+#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -272,6 +275,33 @@ TEST(Canvas, ManyPrimitivesKeepTheirOrder) {
   const Frame frame = drawOnce(picture);
   EXPECT_EQ(pixel(frame, 98, 5), kBlack);
   EXPECT_EQ(pixel(frame, 99, 5), (Rgba8{199, 9, 9, 255}));
+}
+
+/// The process's resident memory in bytes.
+std::size_t residentMemory() {
+  std::ifstream statm("/proc/self/statm");
+  std::size_t total = 0;
+  std::size_t resident = 0;
+  statm >> total >> resident;
+  return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+TEST(Canvas, MemoryDoesNotGrowWithTheNumberOfFrames) {
+  Canvas canvas(333, 217);
+  Frame frame;
+  Picture picture = everythingPicture();
+  const auto drawMoving = [&](int frames) {
+    for (int i = 0; i < frames; ++i) {
+      for (Primitive& primitive : picture.primitives) primitive.center.x() += i % 2 == 0 ? 3.3 : -3.3;
+      canvas.draw(picture, frame);
+    }
+  };
+  drawMoving(100);
+  const std::size_t before = residentMemory();
+  ASSERT_GT(before, 0U);
+  drawMoving(1000);
+  const std::size_t after = residentMemory();
+  EXPECT_LT(after, before + (1UL << 20U)) << "from " << before << " to " << after << " bytes in 1000 frames";
 }
 
 TEST(Frame, HashDependsOnSizeAndPixels) {

@@ -77,8 +77,8 @@ TEST(Context, BothBackendsGiveTheSamePixels) {
 }
 
 TEST(Context, PixelsDoNotDependOnProcessorVectorWidthOrThreads) {
-  const std::string expected = printed(drawInChild({}), "hash");
-  ASSERT_FALSE(expected.empty());
+  // Recorded with Mesa 22.3.6; the same from g++ and clang++ at any optimisation level.
+  const std::string expected = "17790413639615248378";
   std::vector<Environment> settings;
   for (const char* width : {"128", "256", "512"}) {
     for (const char* caps : {"sse2", "sse4.1", "avx", "avx2", ""}) {

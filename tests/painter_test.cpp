@@ -103,7 +103,8 @@ TEST(Painter, CircleStrokesReachWhereJavaFxDrawsThem) {
 }
 
 TEST(Painter, RectangleStrokesHaveMitreCorners) {
-  const auto check = [](StrokeAlign align, double width, Vec2 low, Vec2 high, Vec2 innerLow, Vec2 innerHigh) {
+  const auto check = [](StrokeAlign align, double width, const Vec2& low, const Vec2& high,
+                        const Vec2& innerLow, const Vec2& innerHigh) {
     const Picture picture = paintRectangle(stroked(kRed, width, align), {10, 20}, {30, 40});
     ASSERT_EQ(picture.primitives.size(), 1U);
     const Primitive& primitive = picture.primitives[0];

@@ -4,6 +4,7 @@
 #include "src/sim/vec.h"
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -72,7 +73,8 @@ struct Picture {
   int width = 0;  ///< px
   int height = 0; ///< px
   Rgba8 background{255, 255, 255, 255};
-  PixelRect clip; ///< primitives are painted only inside it; the background everywhere
+  /// Primitives are painted only inside it, the background everywhere. By default all of the picture.
+  PixelRect clip{0, 0, std::numeric_limits<int>::max(), std::numeric_limits<int>::max()};
   std::vector<Primitive> primitives;
   std::vector<PlacedPattern> patterns;
 

@@ -32,7 +32,6 @@ namespace offstage {
   X(deleteShader, "glDeleteShader", PFNGLDELETESHADERPROC)                                                   \
   X(deleteTextures, "glDeleteTextures", PFNGLDELETETEXTURESPROC)                                             \
   X(deleteVertexArrays, "glDeleteVertexArrays", PFNGLDELETEVERTEXARRAYSPROC)                                 \
-  X(disable, "glDisable", PFNGLDISABLEPROC)                                                                  \
   X(drawArrays, "glDrawArrays", PFNGLDRAWARRAYSPROC)                                                         \
   X(drawArraysInstanced, "glDrawArraysInstanced", PFNGLDRAWARRAYSINSTANCEDPROC)                              \
   X(enable, "glEnable", PFNGLENABLEPROC)                                                                     \

@@ -58,8 +58,11 @@ std::array<float, 4> anyEdge(const Vec2& fromCenter, double radius) {
           static_cast<float>(std::clamp(c, -kFar, kFar))};
 }
 
-bool isArc(double radius) {
-  return radius >= kLeastArcRadius && radius <= kMostArcRadius;
+/// `least`: the inner radius, or the outer one again without a hole.
+Coverage circleCoverage(double outer, double least, bool hole) {
+  if (least < kLeastArcRadius) return Coverage::AnyCircle;
+  if (outer > kMostArcRadius) return Coverage::LargeCircle;
+  return hole ? Coverage::Ring : Coverage::Disc;
 }
 
 std::array<float, 4> boxEdges(const Vec2& low, const Vec2& high, const Vec2& origin) {
@@ -74,11 +77,11 @@ void setCircle(const Primitive& primitive, const PixelRect& clip, Drawable& draw
   const Vec2 fromCenter = Vec2(instance.origin[0], instance.origin[1]) - primitive.center;
   const double inner = primitive.kind == Primitive::Kind::Ring ? primitive.inner : 0.0;
   const bool hole = inner >= kInvisibleRadius;
-  const bool arcs = isArc(primitive.outer) && (!hole || isArc(inner));
+  drawable.coverage = circleCoverage(primitive.outer, hole ? inner : primitive.outer, hole);
+  const bool arcs = drawable.coverage == Coverage::Disc || drawable.coverage == Coverage::Ring;
   const auto edge = arcs ? arcEdge : anyEdge;
   instance.outer = edge(fromCenter, primitive.outer);
   if (hole) instance.inner = edge(fromCenter, inner);
-  drawable.coverage = !arcs ? Coverage::AnyCircle : hole ? Coverage::Ring : Coverage::Disc;
 }
 
 void setBox(const Primitive& primitive, const PixelRect& bounds, Drawable& drawable) {

@@ -11,12 +11,13 @@ namespace offstage {
 /// How the fragment shader computes the part of a pixel that a primitive covers. Each is a program of its
 /// own, so that the common ones stay cheap.
 enum class Coverage : std::uint8_t {
-  Disc,      ///< a circle of kLeastArcRadius to kMostArcRadius
-  Ring,      ///< two such circles
-  AnyCircle, ///< a disc or ring of any radii
-  Box,       ///< a rectangle, with or without a rectangular hole
+  Disc,        ///< a circle of kLeastArcRadius to kMostArcRadius
+  Ring,        ///< two such circles
+  LargeCircle, ///< a disc or ring of kLeastArcRadius or more
+  AnyCircle,   ///< a disc or ring of any radii
+  Box,         ///< a rectangle, with or without a rectangular hole
 };
-inline constexpr std::size_t kCoverageCount = 4;
+inline constexpr std::size_t kCoverageCount = 5;
 
 /// From this radius on, the edge inside a pixel is taken as the parabola that osculates it, and integrated
 /// over six columns. Measured error against the exact area: 1.3/255 at this radius, 1.0/255 from 8 px on.
@@ -37,10 +38,9 @@ struct Instance {
   std::array<std::uint8_t, 4> color{};  ///< r, g, b, a; not premultiplied
   /// With D = origin − centre,
   /// Disc, Ring: {D.x, D.y, r², 0};
-  /// AnyCircle: {n.x, n.y, 1/r, c} with n = D/r, c = (|D|² − r²)/(2r), so that g(p) = c + p·n + |p|²/(2r) is
-  /// a pixel's distance from the edge to first order (positive outside), with no large numbers cancelling
-  /// however large r is;
-  /// Box: {low.x, low.y, high.x, high.y} from the origin.
+  /// LargeCircle, AnyCircle: {n.x, n.y, 1/r, c} with n = D/r, c = (|D|² − r²)/(2r), so that g(p) = c + p·n +
+  /// |p|²/(2r) is a pixel's distance from the edge to first order (positive outside), with no large numbers
+  /// cancelling however large r is; Box: {low.x, low.y, high.x, high.y} from the origin.
   std::array<float, 4> outer{};
   std::array<float, 4> inner{};         ///< the hole, in the same form; a box without one has low = high
   std::array<std::int32_t, 4> texels{}; ///< pattern: first texel in the store, width, height, 1 if it repeats

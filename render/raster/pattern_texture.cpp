@@ -4,6 +4,7 @@
 #include "src/sim/error.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -37,6 +38,24 @@ int storedSize(int full, double averaged) {
   return size;
 }
 
+/// A pattern along one axis, in stored texels, as Instance has it.
+struct AxisMap {
+  float start = 0.0F;
+  float perPixel = 0.0F;
+  float window = 1.0F;
+};
+
+/// `fromPattern`: px from the pattern's origin to the instance's; `size`: px of one copy; `count`: stored
+/// texels.
+AxisMap mapAxis(double fromPattern, double size, int count, double window, bool repeat) {
+  if (count == 1) return {}; // the same everywhere, also where copies are smaller than a pixel
+  double start = fromPattern / size * count;
+  if (repeat) start = std::fmod(start, count); // near 0, where a float's fraction is fine
+  if (!std::isfinite(start)) start = 0.0;      // beyond what a double can place
+  return {static_cast<float>(start), static_cast<float>(count / size),
+          static_cast<float>(std::max(window, 1.0))};
+}
+
 } // namespace
 
 PatternTexture::PatternTexture(std::shared_ptr<GlDevice> device) : device_(std::move(device)) {}
@@ -48,23 +67,19 @@ PatternTexture::~PatternTexture() {
 
 bool PatternTexture::place(const PlacedPattern& pattern, Instance& instance) {
   const Image& image = *pattern.image;
-  const double averagedX = averagedTexels(image.width / pattern.size.x());
-  const double averagedY = averagedTexels(image.height / pattern.size.y());
+  const Vec2 averaged(averagedTexels(image.width / pattern.size.x()),
+                      averagedTexels(image.height / pattern.size.y()));
   const Level& texels =
-      level(pattern.image, storedSize(image.width, averagedX), storedSize(image.height, averagedY));
+      level(pattern.image, storedSize(image.width, averaged.x()), storedSize(image.height, averaged.y()));
   instance.texels = {texels.first, texels.width, texels.height, pattern.repeat ? 1 : 0};
-  const auto axis = [&](std::size_t i, int full, int count, double averaged) {
-    const auto at = static_cast<Eigen::Index>(i);
-    double start = (instance.origin[i] - pattern.origin[at]) / pattern.size[at] * count;
-    if (pattern.repeat) start -= count * std::floor(start / count); // keeps the float's fraction fine
-    instance.texelMap[i] = static_cast<float>(start);
-    instance.texelMap[i + 2] = static_cast<float>(count / pattern.size[at]);
-    instance.window[i] = static_cast<float>(std::max(averaged * count / full, 1.0));
-    return instance.window[i] > 1.0F;
-  };
-  const bool wideX = axis(0, image.width, texels.width, averagedX);
-  const bool wideY = axis(1, image.height, texels.height, averagedY);
-  return wideX || wideY;
+  const std::array<AxisMap, 2> axes{
+      mapAxis(instance.origin[0] - pattern.origin.x(), pattern.size.x(), texels.width,
+              averaged.x() * texels.width / image.width, pattern.repeat),
+      mapAxis(instance.origin[1] - pattern.origin.y(), pattern.size.y(), texels.height,
+              averaged.y() * texels.height / image.height, pattern.repeat)};
+  instance.texelMap = {axes[0].start, axes[1].start, axes[0].perPixel, axes[1].perPixel};
+  instance.window = {axes[0].window, axes[1].window};
+  return axes[0].window > 1.0F || axes[1].window > 1.0F;
 }
 
 void PatternTexture::bind() const {

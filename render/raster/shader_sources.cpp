@@ -110,16 +110,13 @@ float insideArc(vec2 p, vec4 edge) {
 }
 )";
 
-/// The same for any radius.
-///
-/// Large ones: n = (p − centre)/r, its components as above. From the pixel's centre along v, the edge is at
-/// the root of v²/(2r) + n_v v + g = 0, which is −2g/(n_v + w) with w² = n_v² − 2g/r = 1 − n_u²; its slope
-/// there is −n_u/w and its second derivative −(1 + slope²)/(r w).
-///
-/// Small ones: sixteen columns over the part of the pixel that the circle spans, each cut by both its upper
-/// and its lower edge.
-constexpr const char* kAnyCircle = R"(
+/// The same for any radius of kLeastArcRadius or more, as Instance has it: n = (p − centre)/r, its components
+/// as above. From the pixel's centre along v, the edge is at the root of v²/(2r) + n_v v + g = 0, which is
+/// −2g/(n_v + w) with w² = n_v² − 2g/r = 1 − n_u²; its slope there is −n_u/w and its second derivative −(1 +
+/// slope²)/(r w).
+constexpr const char* kLarge = R"(
 float insideLarge(vec2 p, vec4 edge) {
+  if (edge.z <= 0.0) return 0.0; // no such edge
   vec2 n = abs(edge.xy + p * edge.z);
   vec2 gradient = edge.xy + p * (0.5 * edge.z);
   float g = edge.w + (p.x * gradient.x + p.y * gradient.y);
@@ -130,7 +127,11 @@ float insideLarge(vec2 p, vec4 edge) {
   float slope = nu * inverse;
   return underParabola(0.5 - 2.0 * g / (nv + w), slope, (slope * slope + 1.0) * (-0.5 * edge.z * inverse));
 }
+)";
 
+/// The same for any radius. Below kLeastArcRadius: sixteen columns over the part of the pixel that the circle
+/// spans, each cut by both its upper and its lower edge.
+constexpr const char* kSmall = R"(
 float insideSmall(vec2 p, vec4 edge) {
   float r = 1.0 / edge.z;
   vec2 from = abs(edge.xy + p * edge.z) * r;
@@ -148,9 +149,7 @@ float insideSmall(vec2 p, vec4 edge) {
 }
 
 float insideAny(vec2 p, vec4 edge) {
-  if (edge.z <= 0.0) return 0.0; // no such edge
-  if (edge.z > SMALL_CURVATURE) return insideSmall(p, edge);
-  return insideLarge(p, edge);
+  return edge.z > SMALL_CURVATURE ? insideSmall(p, edge) : insideLarge(p, edge);
 }
 )";
 
@@ -203,17 +202,20 @@ vec4 pattern(vec2 p) {
 }
 )";
 
-const char* coverageFunctions(Coverage coverage) {
+std::string coverageFunctions(Coverage coverage) {
+  const std::string columns = kColumns;
   switch (coverage) {
   case Coverage::Disc:
   case Coverage::Ring:
-    return kArc;
+    return columns + kArc;
+  case Coverage::LargeCircle:
+    return columns + kLarge;
   case Coverage::AnyCircle:
-    return kAnyCircle;
+    return columns + kLarge + kSmall;
   case Coverage::Box:
     return kBox;
   }
-  return "";
+  return {};
 }
 
 const char* coverageExpression(Coverage coverage) {
@@ -222,6 +224,8 @@ const char* coverageExpression(Coverage coverage) {
     return "insideArc(p, vOuter)";
   case Coverage::Ring:
     return "insideArc(p, vOuter) - insideArc(p, vInner)";
+  case Coverage::LargeCircle:
+    return "insideLarge(p, vOuter) - insideLarge(p, vInner)";
   case Coverage::AnyCircle:
     return "insideAny(p, vOuter) - insideAny(p, vInner)";
   case Coverage::Box:
@@ -248,7 +252,6 @@ std::string vertexSource(const ProgramKind& kind) {
 
 std::string fragmentSource(const ProgramKind& kind) {
   std::string text = preamble(kind) + kFragmentInputs;
-  if (kind.coverage != Coverage::Box) text += kColumns;
   text += coverageFunctions(kind.coverage);
   if (kind.paint != PaintSource::Color) text += kPattern;
   text += fmt::format("void main() {{\n"

@@ -11,7 +11,6 @@ Picture blankPicture(int width, int height, Rgba8 background) {
   picture.width = width;
   picture.height = height;
   picture.background = background;
-  picture.clip = {0, 0, width, height};
   return picture;
 }
 
