@@ -82,6 +82,25 @@ TEST(Commands, RenderSaysWhatItMadeAndNothingElseWhenPiped) {
   EXPECT_THAT(dir.names(), ElementsAre("fall.mp4"));
 }
 
+TEST(Commands, OddSizesArePaddedAndItSaysSoOnce) {
+  const TempDir dir;
+  const ProcessResult result =
+      offstage({"render", scene("fall"), "-o", dir / "odd.mp4", "--duration", "0.1", "--size", "641x480"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.err, "offstage: width 641 is odd: padded to 642 by repeating the last column\n");
+}
+
+TEST(Commands, TransparencyIsRefusedWhereTheFormatHasNoneAndKeptWhereItHas) {
+  const TempDir dir;
+  const std::string file = dir.write("t.toml", "[frame]\nbackground = \"transparent\"\n");
+  const ProcessResult refused = offstage({"render", file, "-o", dir / "t.mp4"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("transparency"));
+  const ProcessResult raw = offstage({"render", file, "-o", "-", "--duration", "0.01"});
+  EXPECT_EQ(raw.status, 0) << raw.err;
+  EXPECT_EQ(raw.out, std::string(640U * 480U * 4U, '\0'));
+}
+
 TEST(Commands, RenderTellsProgressAsJsonLines) {
   const TempDir dir;
   const ProcessResult result = offstage(

@@ -53,8 +53,8 @@ RenderResult render(Source& source, const RenderOptions& options) {
   if (!options.out.empty()) {
     sink = makeSink(options.out, {picture.width, picture.height, picture.background.a != 255, schedule.fps(),
                                   source.title()});
-    if (const std::string notice = sink->notice(); !notice.empty())
-      fmt::print(stderr, "offstage: {}\n", notice);
+    said = sink->notice();
+    printNotice(said);
   }
   std::optional<HashFile> hashes;
   if (!options.hashFile.empty()) hashes.emplace(options.hashFile);
