@@ -106,6 +106,18 @@ TEST(Scene, TheDesignsExampleWordForWord) {
   EXPECT_EQ(world.bodies().size(), 5U) << "the ball, two spawned and two launched circles";
 }
 
+TEST(Scene, ABounceSeparatesUnaskedAndASlideOnlyWhenAsked) {
+  const auto separates = [](const std::string& keys) {
+    return sceneOf("[[body]]\ncenter = [1, 2]\nradius = 3\n[[collide]]\nbetween = [\"bodies\", \"bodies\"]\n" + keys)
+        .world.contacts.at(0)
+        .separate;
+  };
+  EXPECT_TRUE(separates(""));
+  EXPECT_FALSE(separates("separate = false\n"));
+  EXPECT_FALSE(separates("response = \"slide\"\n"));
+  EXPECT_TRUE(separates("response = \"slide\"\nseparate = true\n"));
+}
+
 TEST(Scene, StepsAreDurationTimesFpsRoundedUp) {
   const auto steps = [](double duration, double fps) {
     return sceneOf(fmt::format("duration = {}\n[clock]\nfps = {}\n", duration, fps)).clock.steps();
