@@ -115,7 +115,7 @@ TEST(RawPipe, FullDiskBehindStandardOutputIsTransient) {
 
 TEST(RawPipe, RefusesATerminalAndAClosedDescriptor) {
   const int terminal = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
-  ASSERT_GE(terminal, 0);
+  if (terminal < 0) GTEST_SKIP() << "no terminal to refuse: this system has no pseudo-terminals (/dev/pts)";
   EXPECT_THAT(errorOf([terminal] { const RawPipeSink sink(terminal, formatOf(4, 4)); }),
               HasSubstr("2: standard output is a terminal"));
   close(terminal);
