@@ -15,19 +15,12 @@ namespace offstage {
 namespace {
 
 using test::errorOf;
+using test::formatOf;
 using test::lectureFrame;
 using test::TempDir;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
-
-SinkFormat formatOf(int width, int height) {
-  SinkFormat format;
-  format.width = width;
-  format.height = height;
-  format.fps = 60.0;
-  return format;
-}
 
 std::string nameOf(const std::string& pattern, std::int64_t number) {
   return FramePattern(pattern).path(number).native();

@@ -17,18 +17,11 @@ namespace offstage {
 namespace {
 
 using test::errorOf;
+using test::formatOf;
 using test::noiseFrame;
 using test::TempDir;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-SinkFormat formatOf(int width, int height) {
-  SinkFormat format;
-  format.width = width;
-  format.height = height;
-  format.fps = 60.0;
-  return format;
-}
 
 std::string bytesOf(const Frame& frame) {
   return {frame.rgba.begin(), frame.rgba.end()};
@@ -113,13 +106,19 @@ TEST(RawPipe, FullDiskBehindStandardOutputIsTransient) {
   close(full);
 }
 
-TEST(RawPipe, RefusesATerminalAndAClosedDescriptor) {
+TEST(RawPipe, RefusesATerminal) {
   const int terminal = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
   if (terminal < 0) GTEST_SKIP() << "no terminal to refuse: this system has no pseudo-terminals (/dev/pts)";
   EXPECT_THAT(errorOf([terminal] { const RawPipeSink sink(terminal, formatOf(4, 4)); }),
               HasSubstr("2: standard output is a terminal"));
   close(terminal);
-  EXPECT_THAT(errorOf([terminal] { const RawPipeSink sink(terminal, formatOf(4, 4)); }),
+}
+
+TEST(RawPipe, RefusesAClosedDescriptor) {
+  const int descriptor = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  ASSERT_GE(descriptor, 0);
+  close(descriptor);
+  EXPECT_THAT(errorOf([descriptor] { const RawPipeSink sink(descriptor, formatOf(4, 4)); }),
               HasSubstr("2: cannot write to standard output: Bad file descriptor"));
 }
 

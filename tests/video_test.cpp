@@ -27,6 +27,7 @@ using test::DecodedVideo;
 using test::decodeVideo;
 using test::errorOf;
 using test::flatFrame;
+using test::formatOf;
 using test::lectureFrame;
 using test::TempDir;
 using testing::HasSubstr;
@@ -34,14 +35,6 @@ using testing::IsEmpty;
 using testing::StartsWith;
 
 constexpr std::array<const char*, 3> kNames{"a.mp4", "a.mov", "a.mkv"};
-
-SinkFormat formatOf(int width, int height, double fps) {
-  SinkFormat format;
-  format.width = width;
-  format.height = height;
-  format.fps = fps;
-  return format;
-}
 
 /// Timings of frames that last so long, in ns.
 std::vector<FrameTiming> timingsOf(const std::vector<std::int64_t>& durations) {

@@ -70,6 +70,14 @@ FrameTiming fixedTiming(std::int64_t index, double fps) {
   return {index, at(index), at(index + 1)};
 }
 
+SinkFormat formatOf(int width, int height, double fps) {
+  SinkFormat format;
+  format.width = width;
+  format.height = height;
+  format.fps = fps;
+  return format;
+}
+
 std::string errorOf(const std::function<void()>& action) {
   try {
     action();

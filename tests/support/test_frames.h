@@ -28,6 +28,9 @@ Frame lectureFrame(int width, int height, int number);
 /// Timing of frame `index` at a constant rate.
 FrameTiming fixedTiming(std::int64_t index, double fps);
 
+/// An opaque output of this size and constant rate.
+SinkFormat formatOf(int width, int height, double fps = 60.0);
+
 /// The Error that `action` throws, as "CODE: MESSAGE"; "no error" if it throws none.
 std::string errorOf(const std::function<void()>& action);
 
