@@ -108,7 +108,9 @@ TEST(Scene, TheDesignsExampleWordForWord) {
 
 TEST(Scene, ABounceSeparatesUnaskedAndASlideOnlyWhenAsked) {
   const auto separates = [](const std::string& keys) {
-    return sceneOf("[[body]]\ncenter = [1, 2]\nradius = 3\n[[collide]]\nbetween = [\"bodies\", \"bodies\"]\n" + keys)
+    return sceneOf(
+               "[[body]]\ncenter = [1, 2]\nradius = 3\n[[collide]]\nbetween = [\"bodies\", \"bodies\"]\n" +
+               keys)
         .world.contacts.at(0)
         .separate;
   };

@@ -8,6 +8,7 @@
 #include "src/sim/error.h"
 
 #include <algorithm>
+#include <atomic>
 #include <vector>
 
 #include <fmt/format.h>
@@ -26,6 +27,11 @@ void requireSize(int width, int height, int most) {
   if (width >= 1 && height >= 1 && width <= most && height <= most) return;
   throw Error(ExitCode::BadInput, fmt::format("a frame of {}x{} px cannot be drawn: each side may be 1 to {}",
                                               width, height, most));
+}
+
+std::uint64_t nextDrawing() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
 }
 
 } // namespace
@@ -109,6 +115,9 @@ void Canvas::draw(const Picture& picture, Frame& frame) {
   impl.framebuffer.clear(picture.background);
   impl.paint();
   impl.framebuffer.read(frame, picture.background.a == 255);
+  frame.id = nextDrawing();
+  frame.base = 0;
+  frame.damage.clear();
   checkGl(impl.device->gl(), "drawing a frame");
 }
 

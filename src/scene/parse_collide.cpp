@@ -54,9 +54,9 @@ void parseCollide(SceneBuilder& builder, const TomlValue& table) {
   const bool groupsKnown = readGroups(builder, reader, rule);
   rule.response = reader.choice("response", kResponses);
   rule.restitution = reader.number("restitution", Range::between(0.0, 1.0));
-  // A slide is shown as it is printed, and that moves nobody: the oracle's 6c. So only a bounce separates unasked.
-  rule.separate =
-      reader.has("separate") ? reader.boolean("separate") : rule.response == Response::Bounce;
+  // A slide is shown as it is printed, and that moves nobody: the oracle's 6c. So only a bounce separates
+  // unasked.
+  rule.separate = reader.has("separate") ? reader.boolean("separate") : rule.response == Response::Bounce;
   rule.approachingOnly = reader.boolean("approaching_only");
   rejectWhatTheResponseLacks(reader, rule);
   if (!groupsKnown) return;
