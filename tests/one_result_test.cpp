@@ -24,6 +24,7 @@ std::vector<Environment> machines() {
     for (const char* width : {"128", "256", "512"})
       for (const char* threads : {"0", "1", "4"})
         all.push_back({{"OFFSTAGE_GL", "osmesa"},
+                       {"MESA_SHADER_CACHE_DISABLE", "true"}, // it does not tell vector widths apart
                        {"GALLIUM_OVERRIDE_CPU_CAPS", processor},
                        {"LP_NATIVE_VECTOR_WIDTH", width},
                        {"LP_NUM_THREADS", threads}});

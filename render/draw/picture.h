@@ -46,6 +46,7 @@ struct PlacedPattern {
   /// false: the image is stretched once over the shape and its outermost texels extend beyond; true: it
   /// tiles.
   bool repeat = false;
+  friend bool operator==(const PlacedPattern&, const PlacedPattern&) = default;
 };
 
 /// One thing to paint. Coordinates are output pixels, y down, the upper-left pixel's centre at (0.5, 0.5).

@@ -19,8 +19,13 @@ public:
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
-  /// Draws the whole picture into `frame` (resized as needed). The picture's size must be the canvas's.
+  /// Draws the picture into `frame` (resized as needed). The picture's size must be the canvas's. Only what
+  /// differs from the canvas's picture before is drawn again, and read when `frame` still holds that one; the
+  /// pixels are those of a whole redraw, bit for bit. frame.base and frame.damage say what was drawn again.
   void draw(const Picture& picture, Frame& frame);
+
+  /// Makes the next draw() a whole redraw.
+  void forget();
 
   struct Info {
     std::string backend;  ///< "osmesa" or "egl"

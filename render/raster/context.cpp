@@ -11,8 +11,16 @@
 namespace offstage {
 namespace {
 
+/// Mesa 22.3 crashes while it compiles shaders for vectors of 512 bits, on any processor. Fewer bits give the
+/// same pixels.
+void limitVectorWidth() {
+  const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
+  if (width != nullptr && std::atoi(width) > 256) setenv("LP_NATIVE_VECTOR_WIDTH", "256", 1);
+}
+
 /// Mesa reads these once, when its driver starts. A user's own setting wins.
 void setMesaDefaults() {
+  limitVectorWidth();
   setenv("LP_NUM_THREADS", "0", 0);        // llvmpipe's own threads: parallelism is processes here
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 0); // EGL must not pick a GPU's driver: other pixels
   setenv("GALLIUM_DRIVER", "llvmpipe", 0);

@@ -36,22 +36,49 @@ void Framebuffer::bind() const {
 }
 
 void Framebuffer::clear(Rgba8 color) const {
-  const float alpha = static_cast<float>(color.a) / 255.0F;
-  const auto premultiplied = [&](std::uint8_t value) { return static_cast<float>(value) / 255.0F * alpha; };
-  gl_.clearColor(premultiplied(color.r), premultiplied(color.g), premultiplied(color.b), alpha);
+  const Rgba8 stored = premultiplied(color); // whole bytes, so that every driver stores the same
+  const auto part = [](std::uint8_t value) { return static_cast<float>(value) / 255.0F; };
+  gl_.clearColor(part(stored.r), part(stored.g), part(stored.b), part(stored.a));
   gl_.clear(GL_COLOR_BUFFER_BIT);
+}
+
+void Framebuffer::readStored(const PixelRect& rect, std::uint8_t* rgba, int stride) const {
+  gl_.pixelStorei(GL_PACK_ALIGNMENT, 1);
+  gl_.pixelStorei(GL_PACK_ROW_LENGTH, stride);
+  gl_.readPixels(rect.left, rect.top, rect.right - rect.left, rect.bottom - rect.top, GL_RGBA,
+                 GL_UNSIGNED_BYTE, rgba);
+}
+
+bool Framebuffer::fits(const Frame& frame) const {
+  return frame.width == width_ && frame.height == height_ &&
+         frame.rgba.size() == 4UL * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
 }
 
 void Framebuffer::read(Frame& frame, bool opaque) const {
   frame.width = width_;
   frame.height = height_;
   frame.rgba.resize(4UL * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-  gl_.pixelStorei(GL_PACK_ALIGNMENT, 1);
-  gl_.readPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, frame.rgba.data());
-  if (!opaque) unpremultiply(frame.rgba);
+  read(frame, {0, 0, width_, height_}, opaque);
 }
 
-void unpremultiply(std::vector<std::uint8_t>& rgba) {
+void Framebuffer::read(Frame& frame, const PixelRect& rect, bool opaque) const {
+  const auto stride = 4UL * static_cast<std::size_t>(width_);
+  const auto length = 4UL * static_cast<std::size_t>(rect.right - rect.left);
+  std::uint8_t* first = frame.rgba.data() + static_cast<std::size_t>(rect.top) * stride +
+                        4UL * static_cast<std::size_t>(rect.left);
+  readStored(rect, first, width_);
+  if (opaque) return;
+  for (int y = rect.top; y < rect.bottom; ++y, first += stride) unpremultiply({first, length});
+}
+
+Rgba8 premultiplied(Rgba8 color) {
+  const auto part = [&](unsigned value) {
+    return static_cast<std::uint8_t>((value * color.a + 127U) / 255U);
+  };
+  return {part(color.r), part(color.g), part(color.b), color.a};
+}
+
+void unpremultiply(std::span<std::uint8_t> rgba) {
   for (std::size_t i = 0; i + 3 < rgba.size(); i += 4) {
     const unsigned alpha = rgba[i + 3];
     if (alpha == 255) continue;

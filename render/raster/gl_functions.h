@@ -32,6 +32,7 @@ namespace offstage {
   X(deleteShader, "glDeleteShader", PFNGLDELETESHADERPROC)                                                   \
   X(deleteTextures, "glDeleteTextures", PFNGLDELETETEXTURESPROC)                                             \
   X(deleteVertexArrays, "glDeleteVertexArrays", PFNGLDELETEVERTEXARRAYSPROC)                                 \
+  X(disable, "glDisable", PFNGLDISABLEPROC)                                                                  \
   X(drawArrays, "glDrawArrays", PFNGLDRAWARRAYSPROC)                                                         \
   X(drawArraysInstanced, "glDrawArraysInstanced", PFNGLDRAWARRAYSINSTANCEDPROC)                              \
   X(enable, "glEnable", PFNGLENABLEPROC)                                                                     \

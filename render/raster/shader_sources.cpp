@@ -21,11 +21,13 @@ layout(location = 7) in vec2 window;
 
 uniform vec2 clipPerPixel;
 
+#ifndef WHOLE
 flat out vec4 vOuter;
+flat out vec2 vOrigin;
+#endif
 #ifdef HAS_INNER
 flat out vec4 vInner;
 #endif
-flat out vec2 vOrigin;
 #ifdef PATTERN
 flat out vec3 vWindowAlpha;
 flat out ivec4 vTexels;
@@ -47,28 +49,36 @@ void main() {
   vec2 corner = vec2((id & 1) == 0 ? quad.x : quad.z, (id & 2) == 0 ? quad.y : quad.w);
   gl_Position = vec4(corner * clipPerPixel - 1.0, 0.0, 1.0);
 #endif
+#ifndef WHOLE
   vOuter = outer;
+  vOrigin = vec2(origin);
+#endif
 #ifdef HAS_INNER
   vInner = inner;
 #endif
-  vOrigin = vec2(origin);
   float alpha = float(color.a) * (1.0 / 255.0);
 #ifdef PATTERN
   vWindowAlpha = vec3(window, alpha);
   vTexels = texels;
   vTexelMap = texelMap;
 #else
+#ifdef WHOLE
+  vColor = vec4(color) / 255.0; // stored as it is
+#else
   vColor = vec4(vec3(color.rgb) * (1.0 / 255.0) * alpha, alpha);
+#endif
 #endif
 }
 )";
 
 constexpr const char* kFragmentInputs = R"(
+#ifndef WHOLE
 flat in vec4 vOuter;
+flat in vec2 vOrigin;
+#endif
 #ifdef HAS_INNER
 flat in vec4 vInner;
 #endif
-flat in vec2 vOrigin;
 #ifdef PATTERN
 flat in vec3 vWindowAlpha;
 flat in ivec4 vTexels;
@@ -80,16 +90,16 @@ out vec4 result;
 )";
 
 /// The area of the pixel under a parabola, given by its height above the pixel's lower side at the middle,
-/// its slope there (0 to about 1; the sign does not matter) and half its second derivative. Summed over six
+/// its slope there (0 to about 1; the sign does not matter) and half its second derivative. Summed over four
 /// columns, the height in each cut to the pixel's: where the parabola leaves the pixel inside a column, the
 /// column is wrong by at most slope/8 of its own area.
 constexpr const char* kColumns = R"(
 float underParabola(float height, float slope, float bend) {
-  vec3 u = vec3(1.0, 3.0, 5.0) / 12.0;
-  vec3 mean = height + bend * (u * u);
-  vec3 tilt = slope * u;
-  vec3 columns = clamp(mean + tilt, 0.0, 1.0) + clamp(mean - tilt, 0.0, 1.0);
-  return (columns.x + columns.y + columns.z) * (1.0 / 6.0);
+  vec2 u = vec2(0.125, 0.375);
+  vec2 mean = height + bend * (u * u);
+  vec2 tilt = slope * u;
+  vec2 columns = clamp(mean + tilt, 0.0, 1.0) + clamp(mean - tilt, 0.0, 1.0);
+  return (columns.x + columns.y) * 0.25;
 }
 )";
 
@@ -202,10 +212,25 @@ vec4 pattern(vec2 p) {
 }
 )";
 
+/// Lays a premultiplied colour over an opaque ground in whole bytes as llvmpipe's blending does: the source
+/// rounded to bytes, halves to even; ground times (255 − alpha) divided by 255 as below; the sum.
+/// GroundBlending finds out whether the driver at hand blends so.
+constexpr const char* kOnGround = R"(
+vec4 onGround(vec4 color, float covered, vec3 ground) {
+  precise vec4 premultiplied = color * covered; // rounded as where it is blended, not merged with the 255
+  precise vec4 scaled = premultiplied * 255.0;
+  vec4 source = roundEven(scaled);
+  vec3 product = ground * (255.0 - source.a);
+  vec3 kept = floor((product + floor(product * (1.0 / 256.0)) + 128.0) * (1.0 / 256.0));
+  return vec4((source.rgb + kept) * (1.0 / 255.0), 1.0);
+}
+)";
+
 std::string coverageFunctions(Coverage coverage) {
   const std::string columns = kColumns;
   switch (coverage) {
   case Coverage::Disc:
+  case Coverage::DiscOnGround:
   case Coverage::Ring:
     return columns + kArc;
   case Coverage::LargeCircle:
@@ -214,6 +239,8 @@ std::string coverageFunctions(Coverage coverage) {
     return columns + kLarge + kSmall;
   case Coverage::Box:
     return kBox;
+  case Coverage::Whole:
+    break;
   }
   return {};
 }
@@ -221,6 +248,7 @@ std::string coverageFunctions(Coverage coverage) {
 const char* coverageExpression(Coverage coverage) {
   switch (coverage) {
   case Coverage::Disc:
+  case Coverage::DiscOnGround:
     return "insideArc(p, vOuter)";
   case Coverage::Ring:
     return "insideArc(p, vOuter) - insideArc(p, vInner)";
@@ -230,13 +258,25 @@ const char* coverageExpression(Coverage coverage) {
     return "insideAny(p, vOuter) - insideAny(p, vInner)";
   case Coverage::Box:
     return "insideBox(p, vOuter) - insideBox(p, vInner)";
+  case Coverage::Whole:
+    break;
   }
   return "";
 }
 
+const char* resultExpression(const ProgramKind& kind) {
+  if (kind.coverage == Coverage::DiscOnGround) return "onGround(vColor, covered, vInner.rgb)";
+  return kind.paint == PaintSource::Color ? "vColor * covered" : "pattern(p) * covered";
+}
+
 std::string preamble(const ProgramKind& kind) {
-  std::string text = "#version 330 core\n";
-  if (kind.coverage != Coverage::Disc) text += "#define HAS_INNER\n";
+  std::string text = "#version 330 core\n"
+                     "#extension GL_ARB_gpu_shader5 : enable\n" // precise
+                     "#ifndef GL_ARB_gpu_shader5\n"
+                     "#define precise\n"
+                     "#endif\n";
+  if (kind.coverage == Coverage::Whole) text += "#define WHOLE\n";
+  if (kind.coverage != Coverage::Disc && kind.coverage != Coverage::Whole) text += "#define HAS_INNER\n";
   if (kind.paint != PaintSource::Color) text += "#define PATTERN\n";
   if (kind.footprint == Footprint::Point) text += "#define POINT\n";
   text += fmt::format("#define TAPS {}\n", kind.paint == PaintSource::Reduced ? 3 : 2);
@@ -253,14 +293,15 @@ std::string vertexSource(const ProgramKind& kind) {
 std::string fragmentSource(const ProgramKind& kind) {
   std::string text = preamble(kind) + kFragmentInputs;
   text += coverageFunctions(kind.coverage);
+  if (kind.coverage == Coverage::DiscOnGround) text += kOnGround;
   if (kind.paint != PaintSource::Color) text += kPattern;
+  if (kind.coverage == Coverage::Whole) return text + "void main() { result = vColor; }\n";
   text += fmt::format("void main() {{\n"
                       "  vec2 p = gl_FragCoord.xy - vOrigin;\n"
                       "  float covered = {};\n"
-                      "  result = {} * covered;\n"
+                      "  result = {};\n"
                       "}}\n",
-                      coverageExpression(kind.coverage),
-                      kind.paint == PaintSource::Color ? "vColor" : "pattern(p)");
+                      coverageExpression(kind.coverage), resultExpression(kind));
   return text;
 }
 

@@ -22,6 +22,11 @@ struct ProgramKind {
   friend bool operator==(const ProgramKind&, const ProgramKind&) = default;
 };
 
+/// True for programs whose result replaces what was there; those of the others are blended over it.
+constexpr bool replaces(Coverage coverage) {
+  return coverage == Coverage::Whole || coverage == Coverage::DiscOnGround;
+}
+
 /// GLSL 3.30. Vertex attributes 0 … kAttributeCount − 1 are Instance's members in their order; the uniform
 /// `clipPerPixel` is 2/size; the fragment shader's `store` is the buffer texture of patterns in unit 0. The
 /// result is premultiplied.

@@ -1,0 +1,168 @@
+#include "render/raster/damage.h"
+
+#include "render/raster/cover.h"
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+
+namespace offstage {
+namespace {
+
+/// One side of a change.
+struct Side {
+  const Primitive* primitive = nullptr; ///< null: there was, or is, nothing to be seen
+  PixelRect bounds;
+};
+
+Side sideOf(const DisplayList& list, std::int32_t index) {
+  if (index < 0) return {};
+  const auto i = static_cast<std::size_t>(index);
+  if (!list.layers[i].visible) return {};
+  return {&list.primitives[i], list.layers[i].bounds()};
+}
+
+PixelRect united(const PixelRect& a, const PixelRect& b) {
+  if (a.empty()) return b;
+  if (b.empty()) return a;
+  return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right),
+          std::max(a.bottom, b.bottom)};
+}
+
+PixelRect common(const PixelRect& a, const PixelRect& b) {
+  return {std::max(a.left, b.left), std::max(a.top, b.top), std::min(a.right, b.right),
+          std::min(a.bottom, b.bottom)};
+}
+
+std::int64_t area(const PixelRect& rect) {
+  return static_cast<std::int64_t>(rect.right - rect.left) * (rect.bottom - rect.top);
+}
+
+/// A change of one layer.
+class Marker {
+public:
+  Marker(const Side& before, const Side& after, TileSet& tiles)
+      : before_(before), after_(after), tiles_(tiles) {
+    if (before.primitive != nullptr) coverBefore_.emplace(*before.primitive);
+    if (after.primitive != nullptr) coverAfter_.emplace(*after.primitive);
+    sameColor_ = before.primitive != nullptr && after.primitive != nullptr && before.primitive->pattern < 0 &&
+                 after.primitive->pattern < 0 && before.primitive->color == after.primitive->color;
+    hides_ = sameColor_ && isPlain(*before.primitive);
+  }
+
+  void mark() {
+    const PixelRect both = united(before_.bounds, after_.bounds);
+    if (both.empty()) return;
+    if (area(both) <= area(before_.bounds) + area(after_.bounds)) {
+      markIn(both);
+    } else { // far apart: not all that lies between
+      markIn(before_.bounds);
+      markIn(after_.bounds);
+    }
+  }
+
+private:
+  enum class Verdict : std::uint8_t { Untouched, Hidden, Changed, Mixed };
+
+  [[nodiscard]] Verdict judge(const PixelRect& rect) const {
+    const Cover before = coverBefore_ ? coverBefore_->of(rect) : Cover::None;
+    const Cover after = coverAfter_ ? coverAfter_->of(rect) : Cover::None;
+    if (before == Cover::Some || after == Cover::Some) return Verdict::Mixed;
+    if (before == Cover::None && after == Cover::None) return Verdict::Untouched;
+    if (before != after || !sameColor_) return Verdict::Changed;
+    return hides_ ? Verdict::Hidden : Verdict::Untouched;
+  }
+
+  void markIn(const PixelRect& bounds) {
+    const PixelRect cells = TileSet::cellsOf(bounds);
+    for (int row = cells.top; row < cells.bottom; ++row) {
+      for (int column = cells.left; column < cells.right; ++column) {
+        const PixelRect place = TileSet::cellBounds(column, row);
+        std::uint64_t& cell = tiles_.cell(column, row);
+        switch (judge(place)) {
+        case Verdict::Untouched:
+          break;
+        case Verdict::Hidden:
+          cell = 0;
+          break;
+        case Verdict::Changed:
+          cell = TileSet::kWhole;
+          break;
+        case Verdict::Mixed:
+          markTiles(common(place, bounds), place, cell);
+          break;
+        }
+      }
+    }
+  }
+
+  void markTiles(const PixelRect& part, const PixelRect& place, std::uint64_t& cell) {
+    constexpr int kTile = TileSet::kTile;
+    for (int top = part.top / kTile * kTile; top < part.bottom; top += kTile) {
+      for (int left = part.left / kTile * kTile; left < part.right; left += kTile) {
+        const auto bit = static_cast<unsigned>((top - place.top) / kTile * 8 + (left - place.left) / kTile);
+        const std::uint64_t tile = std::uint64_t{1} << bit;
+        const Verdict verdict = judge({left, top, left + kTile, top + kTile});
+        if (verdict == Verdict::Hidden) {
+          cell &= ~tile;
+        } else if (verdict != Verdict::Untouched) {
+          cell |= tile;
+        }
+      }
+    }
+  }
+
+  Side before_;
+  Side after_;
+  std::optional<CoverTest> coverBefore_;
+  std::optional<CoverTest> coverAfter_;
+  TileSet& tiles_;
+  bool sameColor_ = false; ///< where both cover wholly, the layer has not changed
+  bool hides_ = false;     ///< and nothing below it is seen there
+};
+
+/// Takes away the tiles that an unchanged plain layer hides.
+void hideUnder(const DisplayList& list, std::size_t index, TileSet& tiles) {
+  constexpr int kTile = TileSet::kTile;
+  const Primitive& primitive = list.primitives[index];
+  if (!list.layers[index].visible || !isPlain(primitive)) return;
+  const CoverTest test(primitive);
+  const PixelRect cells = TileSet::cellsOf(list.layers[index].bounds());
+  for (int row = cells.top; row < cells.bottom; ++row) {
+    for (int column = cells.left; column < cells.right; ++column) {
+      std::uint64_t& cell = tiles.cell(column, row);
+      if (cell == 0) continue;
+      const PixelRect place = TileSet::cellBounds(column, row);
+      const Cover cover = test.of(place);
+      if (cover == Cover::Whole) cell = 0;
+      if (cover != Cover::Some) continue;
+      for (std::uint64_t rest = cell; rest != 0; rest &= rest - 1) {
+        const int bit = std::countr_zero(rest);
+        const int left = place.left + bit % 8 * kTile;
+        const int top = place.top + bit / 8 * kTile;
+        if (test.of({left, top, left + kTile, top + kTile}) == Cover::Whole) {
+          cell &= ~(std::uint64_t{1} << static_cast<unsigned>(bit));
+        }
+      }
+    }
+  }
+}
+
+} // namespace
+
+void findDamage(const DisplayList& before, const DisplayList& now, const std::vector<LayerChange>& changes,
+                TileSet& tiles) {
+  auto change = changes.begin();
+  const auto total = static_cast<std::int32_t>(now.layers.size());
+  for (std::int32_t i = changes.empty() ? total : changes.front().position; i <= total; ++i) {
+    bool changed = false;
+    for (; change != changes.end() && change->position == i; ++change) {
+      Marker(sideOf(before, change->before), sideOf(now, change->after), tiles).mark();
+      changed = changed || change->after == i;
+    }
+    if (changed || i == total) continue;
+    hideUnder(now, static_cast<std::size_t>(i), tiles);
+  }
+}
+
+} // namespace offstage
