@@ -1,5 +1,6 @@
 #include "render/raster/area_reduce.h"
 #include "render/raster/canvas.h"
+#include "render/raster/image_detail.h"
 #include "src/sim/error.h"
 #include "tests/support/canvas_pictures.h"
 
@@ -113,6 +114,61 @@ TEST(CanvasPattern, HugeImagesDrawnSmallAreAveragedAndDoNotShimmer) {
       }
     }
   }
+}
+
+/// Squares of `square` texels, black and white in turns.
+std::shared_ptr<const Image> checkerboard(int side, int square) {
+  const auto length = static_cast<std::size_t>(side);
+  std::vector<std::uint8_t> rgba(4 * length * length, 255);
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      if ((x / square + y / square) % 2 == 0) continue;
+      const std::size_t texel = 4 * (static_cast<std::size_t>(y) * length + static_cast<std::size_t>(x));
+      std::fill_n(rgba.begin() + static_cast<std::ptrdiff_t>(texel), 3, std::uint8_t{0});
+    }
+  }
+  return image(side, side, std::move(rgba));
+}
+
+TEST(CanvasPattern, DetailFinerThanThePixelsIsAveragedAtAnyReduction) {
+  Canvas canvas(64, 64);
+  Frame frame;
+  for (const double reduction : {2.0, 2.6, 3.2, 5.0, 7.9}) {
+    int darkest = 255;
+    int lightest = 0;
+    for (int step = 0; step < 20; ++step) {
+      Picture picture = blankPicture(64, 64);
+      const Vec2 low(4.0 + 0.11 * step, 5.0 + 0.07 * step);
+      const Vec2 size(160.0 / reduction, 160.0 / reduction);
+      addPatternBox(picture, checkerboard(160, 1), low, low + size, size, false);
+      canvas.draw(picture, frame);
+      const int edge = std::min(60, 4 + static_cast<int>(size.x()));
+      for (int y = 10; y < edge - 3; ++y) {
+        for (int x = 10; x < edge - 3; ++x) {
+          darkest = std::min<int>(darkest, pixel(frame, x, y).r);
+          lightest = std::max<int>(lightest, pixel(frame, x, y).r);
+        }
+      }
+    }
+    // Averaging over r texels of a checkerboard leaves at most 1/r² of its contrast; interpolation leaves all
+    // of it.
+    const double most = 127.5 / (reduction * reduction) + 2.0;
+    EXPECT_GE(darkest, 127.5 - most) << reduction << ":1";
+    EXPECT_LE(lightest, 127.5 + most) << reduction << ":1";
+  }
+}
+
+TEST(ImageDetail, IsAllOfACheckerboardFromTwiceItsSquaresOn) {
+  const std::vector<double> detail = imageDetail(*checkerboard(64, 4));
+  ASSERT_EQ(detail.size(), 7U);
+  const double all = 127.5 * std::sqrt(3.0 / 4.0); // three of four channels vary
+  for (std::size_t k = 0; k < detail.size(); ++k)
+    EXPECT_NEAR(detail[k], k <= 2 ? 0.0 : all, 1e-6) << "2^" << k;
+}
+
+TEST(ImageDetail, OfOneTexelAndOfOneColourIsNothing) {
+  EXPECT_EQ(imageDetail(*checkerboard(1, 1)), std::vector<double>{0.0});
+  for (const double loss : imageDetail(*checkerboard(5, 8))) EXPECT_NEAR(loss, 0.0, 1e-6);
 }
 
 TEST(CanvasPattern, TilesSmallerThanAPixelShowTheImagesMean) {

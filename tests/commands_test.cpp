@@ -1,6 +1,9 @@
+#include "render/draw/image.h"
 #include "tests/support/process.h"
 #include "tests/support/temp_dir.h"
 
+#include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 
@@ -270,6 +273,30 @@ TEST(Commands, DoctorFindsEverythingThatTheBuildInstalled) {
   EXPECT_EQ(result.status, 0) << result.out;
   EXPECT_THAT(result.out, HasSubstr("GL           ok: osmesa"));
   EXPECT_THAT(result.out, HasSubstr("ok: libx264"));
+}
+
+TEST(Commands, AGraphicsProcessorDrawsWithinOneOf255OrIsSaidToBeMissing) {
+  const TempDir dir;
+  ProcessOptions options;
+  options.environment = {{"OFFSTAGE_GL", "egl-device"}};
+  const std::string device = dir / "device.png";
+  const ProcessResult result = offstage({"still", scene("shapes"), "--at", "0.5", "-o", device}, options);
+  if (result.status == 3) { // no such processor here
+    EXPECT_NE(result.err.find("OFFSTAGE_GL=egl-device finds nothing to draw with"), std::string::npos)
+        << result.err;
+    EXPECT_FALSE(std::filesystem::exists(device));
+    return;
+  }
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::string software = dir / "software.png";
+  ASSERT_EQ(offstage({"still", scene("shapes"), "--at", "0.5", "-o", software}).status, 0);
+  const Image a = loadImage(device);
+  const Image b = loadImage(software);
+  ASSERT_EQ(a.rgba.size(), b.rgba.size());
+  int worst = 0;
+  for (std::size_t i = 0; i < a.rgba.size(); ++i) worst = std::max(worst, std::abs(a.rgba[i] - b.rgba[i]));
+  EXPECT_LE(worst, 1);
+  EXPECT_NE(offstage({"doctor"}, options).out.find("egl-device"), std::string::npos);
 }
 
 TEST(Commands, ProgramsInCppMoveAndLookExactlyAsTheirScenes) {

@@ -26,7 +26,8 @@ TEST(Cover, NoneAndWholeAreWhatTheCanvasPaints) {
     const Vec2 at(place(random), place(random));
     Primitive primitive = disc(at.x(), at.y(), radius, {0, 0, 0, 255});
     if (i % 4 == 1) primitive = ring(at.x(), at.y(), 0.7 * radius, radius, {0, 0, 0, 255});
-    if (i % 4 == 2) primitive = box(at.x(), at.y(), at.x() + radius, at.y() + 0.4 * radius + 1.0, {0, 0, 0, 255});
+    if (i % 4 == 2)
+      primitive = box(at.x(), at.y(), at.x() + radius, at.y() + 0.4 * radius + 1.0, {0, 0, 0, 255});
     if (i % 4 == 3) {
       primitive = box(at.x(), at.y(), at.x() + radius, at.y() + radius, {0, 0, 0, 255});
       primitive.kind = Primitive::Kind::BoxRing;
@@ -43,7 +44,8 @@ TEST(Cover, NoneAndWholeAreWhatTheCanvasPaints) {
         const int painted = 255 - pixel(frame, x, y).r;
         none += cover == Cover::None ? 1 : 0;
         whole += cover == Cover::Whole ? 1 : 0;
-        ASSERT_FALSE(cover == Cover::None && painted != 0) << painted << " of primitive " << i << " at " << x << ", " << y;
+        ASSERT_FALSE(cover == Cover::None && painted != 0)
+            << painted << " of primitive " << i << " at " << x << ", " << y;
         ASSERT_FALSE(cover == Cover::Whole && painted != 255)
             << painted << " of primitive " << i << " at " << x << ", " << y;
       }

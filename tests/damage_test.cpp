@@ -29,23 +29,26 @@ std::string firstDifference(const Frame& expected, const Frame& actual) {
 
 /// A pixel outside of the frame's damage that differs from the frame before, in words; else empty.
 std::string undamagedDifference(const Frame& before, const Frame& now) {
-  std::vector<std::uint8_t> damaged(static_cast<std::size_t>(now.width) * static_cast<std::size_t>(now.height));
+  std::vector<std::uint8_t> damaged(static_cast<std::size_t>(now.width) *
+                                    static_cast<std::size_t>(now.height));
   const auto at = [&](int x, int y) {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(now.width) + static_cast<std::size_t>(x);
   };
   for (const PixelRect& rect : now.damage) {
     for (int y = rect.top; y < rect.bottom; ++y) {
       for (int x = rect.left; x < rect.right; ++x) {
-        if (damaged.at(at(x, y)) != 0) return "damage overlaps at (" + std::to_string(x) + ", " + std::to_string(y) + ")";
+        if (damaged.at(at(x, y)) != 0)
+          return "damage overlaps at (" + std::to_string(x) + ", " + std::to_string(y) + ")";
         damaged.at(at(x, y)) = 1;
       }
     }
   }
   for (int y = 0; y < now.height; ++y)
     for (int x = 0; x < now.width; ++x)
-      if (damaged[at(x, y)] == 0 && !std::equal(before.rgba.begin() + 4 * static_cast<std::ptrdiff_t>(at(x, y)),
-                                                before.rgba.begin() + 4 * static_cast<std::ptrdiff_t>(at(x, y)) + 4,
-                                                now.rgba.begin() + 4 * static_cast<std::ptrdiff_t>(at(x, y))))
+      if (damaged[at(x, y)] == 0 &&
+          !std::equal(before.rgba.begin() + 4 * static_cast<std::ptrdiff_t>(at(x, y)),
+                      before.rgba.begin() + 4 * static_cast<std::ptrdiff_t>(at(x, y)) + 4,
+                      now.rgba.begin() + 4 * static_cast<std::ptrdiff_t>(at(x, y))))
         return "(" + std::to_string(x) + ", " + std::to_string(y) + ") changed outside of the damage";
   return "";
 }
@@ -112,7 +115,9 @@ INSTANTIATE_TEST_SUITE_P(Scenes, DamageOfScene, ::testing::ValuesIn(sceneNames()
 class RandomShow {
 public:
   RandomShow(unsigned seed, int width, int height, Rgba8 background)
-      : random_(seed), picture_(blankPicture(width, height, background)), image_(colorfulImage(17, 11, false)) {
+      : random_(seed),
+        picture_(blankPicture(width, height, background)),
+        image_(colorfulImage(17, 11, false)) {
     for (int i = 0; i < 12; ++i) picture_.primitives.push_back(any());
   }
 
@@ -128,9 +133,13 @@ public:
   }
 
 private:
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
   bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
-  std::size_t below(std::size_t count) { return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_); }
+  std::size_t below(std::size_t count) {
+    return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_);
+  }
   Rgba8 color() {
     const auto byte = [&] { return static_cast<std::uint8_t>(below(256)); };
     return {byte(), byte(), byte(), chance(0.7) ? std::uint8_t{255} : byte()};
@@ -157,7 +166,8 @@ private:
       Primitive primitive = disc(at.x(), at.y(), size, color());
       if (chance(0.2)) {
         primitive.pattern = static_cast<std::int32_t>(picture_.patterns.size());
-        picture_.patterns.push_back({image_, at - Vec2(size, size), Vec2(2.0 * size, 2.0 * size), chance(0.5)});
+        picture_.patterns.push_back(
+            {image_, at - Vec2(size, size), Vec2(2.0 * size, 2.0 * size), chance(0.5)});
       }
       return primitive;
     }
@@ -168,9 +178,11 @@ private:
     if (chance(0.1)) primitive.color = color();
     if (chance(0.1)) primitive.outer *= uniform(0.9, 1.1);
     primitive.inner = std::min(primitive.inner, primitive.outer);
-    const Vec2 moved = chance(0.1) ? Vec2(place() - primitive.center) : Vec2(uniform(-3.0, 3.0), uniform(-3.0, 3.0));
+    const Vec2 moved =
+        chance(0.1) ? Vec2(place() - primitive.center) : Vec2(uniform(-3.0, 3.0), uniform(-3.0, 3.0));
     primitive.center += moved;
-    for (Vec2* corner : {&primitive.low, &primitive.high, &primitive.innerLow, &primitive.innerHigh}) *corner += moved;
+    for (Vec2* corner : {&primitive.low, &primitive.high, &primitive.innerLow, &primitive.innerHigh})
+      *corner += moved;
   }
 
   std::mt19937 random_;
@@ -205,7 +217,8 @@ TEST(Damage, OfManyDiscsOnEveryBackgroundLeavesThePixelsOfAWholeRedraw) {
     BothWays both(640, 480);
     for (int k = 0; k < 6; ++k) {
       ASSERT_EQ(both.draw(picture), "") << "shade " << shade << ", frame " << k;
-      for (Primitive& primitive : picture.primitives) primitive.center += Vec2(unit(random), unit(random) - 0.5);
+      for (Primitive& primitive : picture.primitives)
+        primitive.center += Vec2(unit(random), unit(random) - 0.5);
     }
     EXPECT_GE(both.partial(), 4) << "of 6 frames";
   }
@@ -214,7 +227,8 @@ TEST(Damage, OfManyDiscsOnEveryBackgroundLeavesThePixelsOfAWholeRedraw) {
 TEST(Damage, InsideAClipLeavesThePixelsOfAWholeRedraw) {
   Picture picture = blankPicture(300, 200, {240, 240, 250, 255});
   picture.clip = {37, 21, 251, 183};
-  picture.primitives = {disc(60.0, 60.0, 50.0, {200, 30, 30, 255}), disc(220.0, 150.0, 60.0, {30, 30, 200, 255})};
+  picture.primitives = {disc(60.0, 60.0, 50.0, {200, 30, 30, 255}),
+                        disc(220.0, 150.0, 60.0, {30, 30, 200, 255})};
   BothWays both(300, 200);
   for (int k = 0; k < 40; ++k) {
     ASSERT_EQ(both.draw(picture), "") << "frame " << k;
@@ -251,7 +265,8 @@ TEST(Damage, KeepsOutOfTheInsideOfAPlainBody) {
 
 TEST(Damage, ChangesBelowAPlainBodyAreNotSeen) {
   Picture picture = blankPicture(640, 480);
-  picture.primitives = {disc(320.0, 240.0, 20.0, {200, 20, 30, 255}), disc(320.0, 240.0, 150.0, {10, 20, 30, 255})};
+  picture.primitives = {disc(320.0, 240.0, 20.0, {200, 20, 30, 255}),
+                        disc(320.0, 240.0, 150.0, {10, 20, 30, 255})};
   Canvas canvas(640, 480);
   Frame frame;
   canvas.draw(picture, frame);

@@ -15,4 +15,8 @@ std::unique_ptr<GlContext> makeOsMesaContext(std::string& reason);
 /// Null as above.
 std::unique_ptr<GlContext> makeEglContext(std::string& reason);
 
+/// An EGL context on the first graphics processor that gives one (EGL_EXT_platform_device); software devices
+/// are passed over. Null as above.
+std::unique_ptr<GlContext> makeEglDeviceContext(std::string& reason);
+
 } // namespace offstage

@@ -30,7 +30,8 @@ std::span<const BatchPlanner::Batch> BatchPlanner::plan(const std::vector<Progra
   return std::span<const Batch>(batches_).first(used_);
 }
 
-template <typename Visit> void BatchPlanner::visitCells(const Instance& instance, Visit visit) const {
+template <typename Visit>
+void BatchPlanner::visitCells(const Instance& instance, Visit visit) const {
   const int left = instance.quad[0] / kCell;
   const int right = (instance.quad[2] + kCell - 1) / kCell;
   const int bottom = (instance.quad[3] + kCell - 1) / kCell;

@@ -10,9 +10,9 @@
 
 namespace offstage {
 
-/// Sorts instances into batches of one program each. Changing the program costs llvmpipe about as much as four
-/// circles do, so instances join an earlier batch of their program wherever nothing that they overlap was drawn
-/// since: among instances whose bounds overlap the order stays.
+/// Sorts instances into batches of one program each. Changing the program costs llvmpipe about as much as
+/// four circles do, so instances join an earlier batch of their program wherever nothing that they overlap
+/// was drawn since: among instances whose bounds overlap the order stays.
 class BatchPlanner {
 public:
   struct Batch {
@@ -24,13 +24,15 @@ public:
   BatchPlanner(int width, int height);
 
   /// Batches in the order in which to draw them. One program for each instance. Valid until the next call.
-  std::span<const Batch> plan(const std::vector<ProgramKind>& programs, const std::vector<Instance>& instances);
+  std::span<const Batch> plan(const std::vector<ProgramKind>& programs,
+                              const std::vector<Instance>& instances);
 
 private:
   [[nodiscard]] std::int32_t lastBatchUnder(const Instance& instance) const;
   void mark(const Instance& instance, std::int32_t batch);
   Batch& open(const ProgramKind& program);
-  template <typename Visit> void visitCells(const Instance& instance, Visit visit) const;
+  template <typename Visit>
+  void visitCells(const Instance& instance, Visit visit) const;
 
   static constexpr int kCell = 16; ///< px
   int columns_;

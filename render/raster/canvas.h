@@ -28,7 +28,7 @@ public:
   void forget();
 
   struct Info {
-    std::string backend;  ///< "osmesa" or "egl"
+    std::string backend;  ///< "osmesa", "egl" or "egl-device"
     std::string renderer; ///< GL_RENDERER
     std::string version;  ///< GL_VERSION
     int maxSize = 0;      ///< px a side

@@ -34,9 +34,19 @@ constexpr std::string_view kInstallHint =
 std::unique_ptr<GlContext> makeGlContext() {
   const char* setting = std::getenv("OFFSTAGE_GL");
   const std::string_view wanted = setting == nullptr || *setting == '\0' ? "auto" : setting;
-  if (wanted != "auto" && wanted != "osmesa" && wanted != "egl") {
+  if (wanted != "auto" && wanted != "osmesa" && wanted != "egl" && wanted != "egl-device") {
     throw Error(ExitCode::BadInput,
-                fmt::format("OFFSTAGE_GL is '{}'; it may be osmesa, egl or auto", wanted));
+                fmt::format("OFFSTAGE_GL is '{}'; it may be osmesa, egl, egl-device or auto", wanted));
+  }
+  if (wanted == "egl-device") {
+    std::string reason;
+    if (auto context = makeEglDeviceContext(reason)) return context;
+    throw Error(
+        ExitCode::Environment,
+        fmt::format(
+            "OFFSTAGE_GL=egl-device finds nothing to draw with: {}; install its driver (libegl-nvidia0 "
+            "for NVIDIA, libegl-mesa0 and libgl1-mesa-dri for others), or leave OFFSTAGE_GL unset",
+            reason));
   }
   setMesaDefaults();
   std::string reasons;

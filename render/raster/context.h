@@ -17,13 +17,13 @@ public:
   GlContext& operator=(const GlContext&) = delete;
 
   [[nodiscard]] virtual Proc proc(const char* name) const = 0; ///< a GL function, or null
-  [[nodiscard]] virtual std::string backend() const = 0;       ///< "osmesa" or "egl"
+  [[nodiscard]] virtual std::string backend() const = 0;       ///< "osmesa", "egl" or "egl-device"
 };
 
-/// Makes the context that the environment variable OFFSTAGE_GL asks for: "osmesa", "egl", or "auto" (default:
-/// OSMesa, then EGL surfaceless). Sets LP_NUM_THREADS=0 unless the user has set it: Offstage's parallelism is
-/// processes. Throws Error(Environment) naming the Debian packages when there is none, Error(BadInput) on
-/// another value.
+/// Makes the context that the environment variable OFFSTAGE_GL asks for: "osmesa", "egl", "egl-device" (a
+/// graphics processor, whose pixels may differ from the others' by 1/255), or "auto" (default: OSMesa, then
+/// EGL surfaceless). Sets LP_NUM_THREADS=0 unless the user has set it: Offstage's parallelism is processes.
+/// Throws Error(Environment) naming the Debian packages when there is none, Error(BadInput) on another value.
 std::unique_ptr<GlContext> makeGlContext();
 
 } // namespace offstage

@@ -14,15 +14,13 @@ enum class Cover : std::uint8_t {
   Whole, ///< covers every pixel of it wholly
 };
 
-/// Tells for one primitive. Sure in None and Whole; near an edge, and for circles whose edge is nearly straight,
-/// it says Some.
+/// Tells for one primitive. Sure in None and Whole; near an edge, and for circles whose edge is nearly
+/// straight, it says Some.
 class CoverTest {
 public:
   explicit CoverTest(const Primitive& primitive);
 
-  [[nodiscard]] Cover of(const PixelRect& rect) const {
-    return round_ ? ofCircle(rect) : ofBox(rect);
-  }
+  [[nodiscard]] Cover of(const PixelRect& rect) const { return round_ ? ofCircle(rect) : ofBox(rect); }
 
 private:
   /// A rectangle that is open at its edges.
@@ -70,8 +68,8 @@ private:
   Bounds boxOutside_{}, boxInside_{}, boxRim_{}, boxHole_{};
 };
 
-/// True when the primitive hides what is below it wherever it covers a pixel wholly, and looks the same in all
-/// of these pixels.
+/// True when the primitive hides what is below it wherever it covers a pixel wholly, and looks the same in
+/// all of these pixels.
 inline bool isPlain(const Primitive& primitive) {
   return primitive.pattern < 0 && primitive.color.a == 255;
 }

@@ -9,7 +9,8 @@
 
 namespace offstage {
 
-/// What is to be drawn, in order, in as few draw calls as that order allows. Memory is kept from frame to frame.
+/// What is to be drawn, in order, in as few draw calls as that order allows. Memory is kept from frame to
+/// frame.
 class DrawQueue {
 public:
   /// width, height: of the framebuffer in px.

@@ -8,7 +8,8 @@
 namespace offstage {
 
 /// Finds out, by trying, whether the driver blends over an opaque colour exactly as the programs for known
-/// grounds compute it. Where it does not, they are not used, so that a partial redraw always equals a whole one.
+/// grounds compute it. Where it does not, they are not used, so that a partial redraw always equals a whole
+/// one.
 class GroundCheck {
 public:
   /// The framebuffer's pixels that the trial overwrites.

@@ -94,8 +94,9 @@ bool PartialRedraw::collect(const DisplayList& list, const TileSet& tiles, const
   }
   for (const Square& square : squares_) {
     if (square.lowest == kDrawn) continue;
-    const Rgba8 color =
-        square.lowest == kBackground ? background : list.primitives[static_cast<std::size_t>(square.lowest)].color;
+    const Rgba8 color = square.lowest == kBackground
+                            ? background
+                            : list.primitives[static_cast<std::size_t>(square.lowest)].color;
     draw(square.rect, frame, {Coverage::Whole, PaintSource::Color, Footprint::Point}, wholeInstance(color));
   }
   for (const Hit& hit : hits_) {
@@ -145,7 +146,8 @@ void PartialRedraw::split(const TileSet& tiles) {
   cellStart_.push_back(squares_.size());
 }
 
-template <typename Visit> void PartialRedraw::visitSquares(const PixelRect& bounds, Visit visit) {
+template <typename Visit>
+void PartialRedraw::visitSquares(const PixelRect& bounds, Visit visit) {
   const PixelRect cells = TileSet::cellsOf(bounds);
   for (int row = cells.top; row < cells.bottom; ++row) {
     const auto line = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_);

@@ -9,19 +9,20 @@
 
 namespace offstage {
 
-/// Redraws some tiles of a frame: the background there, and of every layer what lies in them, from the topmost
-/// one that hides the rest. Tiles are put together to squares, which GL draws as points.
+/// Redraws some tiles of a frame: the background there, and of every layer what lies in them, from the
+/// topmost one that hides the rest. Tiles are put together to squares, which GL draws as points.
 class PartialRedraw {
 public:
   /// The canvas that is drawn on.
   struct Target {
-    int width;             ///< px
-    int height;            ///< px
-    int largestPoint;      ///< px a side
-    bool groundIsExact;    ///< GroundCheck: discs may be laid over the background without blending
+    int width;          ///< px
+    int height;         ///< px
+    int largestPoint;   ///< px a side
+    bool groundIsExact; ///< GroundCheck: discs may be laid over the background without blending
   };
 
-  /// Fills the queue. False when a full redraw is estimated to cost less; the queue then holds nothing of use.
+  /// Fills the queue. False when a full redraw is estimated to cost less; the queue then holds nothing of
+  /// use.
   bool collect(const DisplayList& list, const TileSet& tiles, const Target& target, DrawQueue& queue);
 
 private:
@@ -40,7 +41,8 @@ private:
 
   void split(const TileSet& tiles);
   void findHits(const DisplayList& list);
-  template <typename Visit> void visitSquares(const PixelRect& bounds, Visit visit);
+  template <typename Visit>
+  void visitSquares(const PixelRect& bounds, Visit visit);
 
   int columns_ = 0;
   std::vector<Square> squares_;        ///< cell after cell
@@ -49,8 +51,8 @@ private:
   std::vector<PixelRect> rects_;       ///< scratch
 };
 
-/// What a full redraw costs, and what PartialRedraw compares itself with: an estimate in ns, from measurements
-/// of llvmpipe with one thread.
+/// What a full redraw costs, and what PartialRedraw compares itself with: an estimate in ns, from
+/// measurements of llvmpipe with one thread.
 double fullRedrawCost(const DisplayList& list, int width, int height);
 
 } // namespace offstage

@@ -1,6 +1,7 @@
 #include "render/raster/pattern_texture.h"
 
 #include "render/raster/area_reduce.h"
+#include "render/raster/image_detail.h"
 #include "src/sim/error.h"
 
 #include <algorithm>
@@ -15,17 +16,22 @@ namespace {
 constexpr int kTexelBytes = 4;
 constexpr int kFirstCapacity = 1 << 16; // texels: 256 KiB
 
-/// How many texels of the image, along an axis, a pixel averages when `reduction` texels fall to it.
+/// From this loss on (imageDetail: of 255), an image drawn smaller is averaged.
+constexpr double kVisibleDetail = 32.0;
+
+/// How many texels of the image, along an axis, a pixel averages when `reduction` texels fall to it. `fine`:
+/// the image's detail is lost at this reduction.
 ///
 /// All of them would be the mean over the pixel's area, which neither aliases nor shimmers, but is not
 /// JavaFX's look: JavaFX interpolates between neighbouring texels at any reduction, and the mean differs from
-/// that by up to 55/255 at 3.2:1 and 51/255 at 8:1 (oracle stills 09 and 08), where 26 are allowed. So up to
-/// 8:1 a pixel shows what JavaFX shows; from there to 16:1 the window grows to the pixel's area, and stays
-/// that.
-double averagedTexels(double reduction) {
+/// that by up to 55/255 at 3.2:1 and 51/255 at 8:1 (oracle stills 09 and 08), where 26 are allowed. So an
+/// image whose detail survives shows, up to 8:1, what JavaFX shows; from there to 16:1 the window grows to
+/// the pixel's area, and stays that. An image with finer detail would shimmer as it moves, and is averaged
+/// from 1:1 on.
+double averagedTexels(double reduction, bool fine) {
   constexpr double kInterpolatedUpTo = 8.0;
   constexpr double kAveragedFrom = 16.0;
-  if (reduction >= kAveragedFrom) return reduction;
+  if (fine || reduction >= kAveragedFrom) return std::max(reduction, 1.0);
   const double part = (reduction - kInterpolatedUpTo) / (kAveragedFrom - kInterpolatedUpTo);
   return part <= 0.0 ? 1.0 : 1.0 + part * (reduction - 1.0);
 }
@@ -67,8 +73,9 @@ PatternTexture::~PatternTexture() {
 
 bool PatternTexture::place(const PlacedPattern& pattern, Instance& instance) {
   const Image& image = *pattern.image;
-  const Vec2 averaged(averagedTexels(image.width / pattern.size.x()),
-                      averagedTexels(image.height / pattern.size.y()));
+  const Vec2 reduction(image.width / pattern.size.x(), image.height / pattern.size.y());
+  const bool fine = losesDetail(pattern.image, reduction.maxCoeff());
+  const Vec2 averaged(averagedTexels(reduction.x(), fine), averagedTexels(reduction.y(), fine));
   const Level& texels =
       level(pattern.image, storedSize(image.width, averaged.x()), storedSize(image.height, averaged.y()));
   instance.texels = {texels.first, texels.width, texels.height, pattern.repeat ? 1 : 0};
@@ -80,6 +87,18 @@ bool PatternTexture::place(const PlacedPattern& pattern, Instance& instance) {
   instance.texelMap = {axes[0].start, axes[1].start, axes[0].perPixel, axes[1].perPixel};
   instance.window = {axes[0].window, axes[1].window};
   return axes[0].window > 1.0F || axes[1].window > 1.0F;
+}
+
+bool PatternTexture::losesDetail(const std::shared_ptr<const Image>& image, double reduction) {
+  if (!(reduction > 1.0)) return false;
+  const auto [entry, isNew] = details_.try_emplace(image.get());
+  if (isNew) {
+    entry->second = imageDetail(*image);
+    images_.emplace(image.get(), image);
+  }
+  const auto last = static_cast<double>(entry->second.size() - 1);
+  const auto level = static_cast<std::size_t>(std::min(std::ceil(std::log2(reduction)), last));
+  return entry->second[level] > kVisibleDetail;
 }
 
 void PatternTexture::bind() const {

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <tuple>
+#include <vector>
 
 namespace offstage {
 
@@ -37,11 +38,14 @@ private:
   using Key = std::tuple<const Image*, int, int>; ///< image, width, height
 
   const Level& level(const std::shared_ptr<const Image>& image, int width, int height);
+  /// Whether the image has detail that pixels of `reduction` texels cannot show.
+  bool losesDetail(const std::shared_ptr<const Image>& image, double reduction);
   void reserve(int texels);
 
   std::shared_ptr<GlDevice> device_;
   std::map<Key, Level> levels_;
   std::map<const Image*, std::shared_ptr<const Image>> images_;
+  std::map<const Image*, std::vector<double>> details_; ///< imageDetail
   GLuint texture_ = 0;
   GLuint buffer_ = 0;
   int used_ = 0;     ///< texels

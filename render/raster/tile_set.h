@@ -8,12 +8,12 @@
 
 namespace offstage {
 
-/// A set of the tiles of kTile×kTile px that a frame is divided into from its upper-left corner. Stored as one
-/// word for each cell of 8×8 tiles: bit 8·row + column.
+/// A set of the tiles of kTile×kTile px that a frame is divided into from its upper-left corner. Stored as
+/// one word for each cell of 8×8 tiles: bit 8·row + column.
 class TileSet {
 public:
-  static constexpr int kTile = 8;          ///< px
-  static constexpr int kCell = 8 * kTile;  ///< px
+  static constexpr int kTile = 8;         ///< px
+  static constexpr int kCell = 8 * kTile; ///< px
   static constexpr std::uint64_t kWhole = ~std::uint64_t{0};
 
   /// An empty set for a frame of this size in px.
@@ -42,7 +42,8 @@ public:
 
   /// Adds the tile that holds a pixel of the frame.
   void addTile(int x, int y) {
-    cell(x / kCell, y / kCell) |= std::uint64_t{1} << static_cast<unsigned>(y % kCell / kTile * 8 + x % kCell / kTile);
+    cell(x / kCell, y / kCell) |= std::uint64_t{1}
+                                  << static_cast<unsigned>(y % kCell / kTile * 8 + x % kCell / kTile);
   }
   [[nodiscard]] bool empty() const;
 
@@ -57,8 +58,8 @@ private:
   std::vector<std::uint64_t> cells_;
 };
 
-/// The largest squares of 64, 32, 16 and 8 px, each at a multiple of its side, that a cell's tiles are made up
-/// of, appended with the cell's place added.
+/// The largest squares of 64, 32, 16 and 8 px, each at a multiple of its side, that a cell's tiles are made
+/// up of, appended with the cell's place added.
 void appendSquares(std::uint64_t tiles, int column, int row, std::vector<PixelRect>& squares);
 
 } // namespace offstage

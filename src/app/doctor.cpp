@@ -24,6 +24,9 @@ bool reportGl() {
   try {
     const Canvas::Info info = Canvas(16, 16).info();
     line("GL", fmt::format("ok: {}, {}, {}", info.backend, info.renderer, info.version));
+    line("pixels", info.backend == "egl-device"
+                       ? "a graphics processor's: may differ by 1/255 from those of osmesa and egl"
+                       : "the same on every machine");
     line("picture", fmt::format("at most {0}x{0} px", info.maxSize));
     return true;
   } catch (const Error& error) {
