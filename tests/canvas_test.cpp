@@ -1,5 +1,6 @@
 #include "render/raster/canvas.h"
 #include "src/sim/error.h"
+#include "tests/support/allocation_count.h"
 #include "tests/support/canvas_pictures.h"
 
 #include <algorithm>
@@ -311,6 +312,25 @@ TEST(Canvas, MemoryDoesNotGrowWithTheNumberOfFrames) {
     sizes += " -> " + std::to_string(allocatedMemory());
   }
   EXPECT_LT(allocatedMemory(), before + (64UL << 10U)) << "bytes after stretches of 400 frames: " << sizes;
+}
+
+TEST(Canvas, AllocatesNothingAfterWarmUp) {
+  Canvas canvas(333, 217);
+  Frame frame;
+  Picture picture = everythingPicture();
+  const auto drawFrames = [&](int frames, std::size_t moving) {
+    for (int i = 0; i < frames; ++i) {
+      for (std::size_t k = 0; k < moving; ++k) picture.primitives[k].center.x() += i % 2 == 0 ? 3.3 : -3.3;
+      canvas.draw(picture, frame);
+    }
+  };
+  for (const std::size_t moving : {picture.primitives.size(), std::size_t{3}, std::size_t{0}}) {
+    drawFrames(10, moving);
+    if (!allocationsSinceLastCall()) GTEST_SKIP() << "the sanitizer has its own allocator";
+    drawFrames(50, moving);
+    EXPECT_EQ(allocationsSinceLastCall(), 0U)
+        << "operator new in 50 frames with " << moving << " moving primitives";
+  }
 }
 
 TEST(Frame, HashDependsOnSizeAndPixels) {

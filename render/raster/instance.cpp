@@ -45,9 +45,9 @@ double safeLength(const Vec2& v) {
   return scale > 0.0 ? scale * length(v / scale) : 0.0;
 }
 
-std::array<float, 4> arcEdge(const Vec2& fromCenter, double radius) {
-  return {static_cast<float>(fromCenter.x()), static_cast<float>(fromCenter.y()),
-          static_cast<float>(radius * radius), 0.0F};
+std::array<float, 4> arcEdge(const Vec2& center, double radius) {
+  return {static_cast<float>(center.x()), static_cast<float>(center.y()), static_cast<float>(radius * radius),
+          0.0F};
 }
 
 std::array<float, 4> anyEdge(const Vec2& fromCenter, double radius) {
@@ -79,9 +79,11 @@ void setCircle(const Primitive& primitive, const PixelRect& clip, Drawable& draw
   const bool hole = inner >= kInvisibleRadius;
   drawable.coverage = circleCoverage(primitive.outer, hole ? inner : primitive.outer, hole);
   const bool arcs = drawable.coverage == Coverage::Disc || drawable.coverage == Coverage::Ring;
-  const auto edge = arcs ? arcEdge : anyEdge;
-  instance.outer = edge(fromCenter, primitive.outer);
-  if (hole) instance.inner = edge(fromCenter, inner);
+  const auto edge = [&](double radius) {
+    return arcs ? arcEdge(primitive.center, radius) : anyEdge(fromCenter, radius);
+  };
+  instance.outer = edge(primitive.outer);
+  if (hole) instance.inner = edge(inner);
 }
 
 void setBox(const Primitive& primitive, const PixelRect& bounds, Drawable& drawable) {

@@ -38,11 +38,11 @@ struct Instance {
   std::array<std::uint16_t, 4> quad{};
   std::array<std::int16_t, 2> origin{}; ///< px: the point that edges and pattern are expressed from
   std::array<std::uint8_t, 4> color{};  ///< r, g, b, a; not premultiplied
-  /// With D = origin − centre,
-  /// Disc, Ring: {D.x, D.y, r², 0};
-  /// LargeCircle, AnyCircle: {n.x, n.y, 1/r, c} with n = D/r, c = (|D|² − r²)/(2r), so that g(p) = c + p·n +
-  /// |p|²/(2r) is a pixel's distance from the edge to first order (positive outside), with no large numbers
-  /// cancelling however large r is; Box: {low.x, low.y, high.x, high.y} from the origin.
+  /// Disc, Ring: {centre.x, centre.y, r², 0}, from the frame's upper-left corner: half of a float's last
+  /// digit is at most 0.0005 px there. With D = origin − centre, LargeCircle, AnyCircle: {n.x, n.y, 1/r, c}
+  /// with n = D/r, c = (|D|² − r²)/(2r), so that g(p) = c + p·n + |p|²/(2r) is a pixel's distance from the
+  /// edge to first order (positive outside), with no large numbers cancelling however large r is; Box:
+  /// {low.x, low.y, high.x, high.y} from the origin.
   std::array<float, 4> outer{};
   /// The hole, in the same form; a box without one has low = high. DiscOnGround: r, g, b of the ground (0 …
   /// 255).

@@ -23,6 +23,8 @@ uniform vec2 clipPerPixel;
 
 #ifndef WHOLE
 flat out vec4 vOuter;
+#endif
+#ifdef HAS_ORIGIN
 flat out vec2 vOrigin;
 #endif
 #ifdef HAS_INNER
@@ -51,6 +53,8 @@ void main() {
 #endif
 #ifndef WHOLE
   vOuter = outer;
+#endif
+#ifdef HAS_ORIGIN
   vOrigin = vec2(origin);
 #endif
 #ifdef HAS_INNER
@@ -74,6 +78,8 @@ void main() {
 constexpr const char* kFragmentInputs = R"(
 #ifndef WHOLE
 flat in vec4 vOuter;
+#endif
+#ifdef HAS_ORIGIN
 flat in vec2 vOrigin;
 #endif
 #ifdef HAS_INNER
@@ -87,6 +93,10 @@ flat in vec4 vTexelMap;
 flat in vec4 vColor;
 #endif
 out vec4 result;
+
+#ifdef HAS_ORIGIN
+vec2 fromOrigin() { return gl_FragCoord.xy - vOrigin; }
+#endif
 )";
 
 /// The area of the pixel under a parabola, given by its height above the pixel's lower side at the middle,
@@ -103,14 +113,14 @@ float underParabola(float height, float slope, float bend) {
 }
 )";
 
-/// The part of the pixel with centre p (from the origin) that lies in a circle of kLeastArcRadius to
+/// The part of the pixel with centre p (from the frame's corner) that lies in a circle of kLeastArcRadius to
 /// kMostArcRadius. By symmetry the pixel lies in one octant: v is its coordinate from the circle's centre
 /// along the axis where that is larger, u the other. The edge is at v = w = sqrt(r² − u²), its slope there
 /// −u/w and its second derivative −r²/w³ = −(1 + slope²)/w. The bound on w matters only where the pixel is
 /// wholly outside.
 constexpr const char* kArc = R"(
 float insideArc(vec2 p, vec4 edge) {
-  vec2 from = abs(p + edge.xy);
+  vec2 from = abs(p - edge.xy);
   float v = max(from.x, from.y);
   float u = min(from.x, from.y);
   float w = sqrt(max(edge.z - u * u, 0.25 * edge.z));
@@ -249,15 +259,15 @@ const char* coverageExpression(Coverage coverage) {
   switch (coverage) {
   case Coverage::Disc:
   case Coverage::DiscOnGround:
-    return "insideArc(p, vOuter)";
+    return "insideArc(gl_FragCoord.xy, vOuter)";
   case Coverage::Ring:
-    return "insideArc(p, vOuter) - insideArc(p, vInner)";
+    return "insideArc(gl_FragCoord.xy, vOuter) - insideArc(gl_FragCoord.xy, vInner)";
   case Coverage::LargeCircle:
-    return "insideLarge(p, vOuter) - insideLarge(p, vInner)";
+    return "insideLarge(fromOrigin(), vOuter) - insideLarge(fromOrigin(), vInner)";
   case Coverage::AnyCircle:
-    return "insideAny(p, vOuter) - insideAny(p, vInner)";
+    return "insideAny(fromOrigin(), vOuter) - insideAny(fromOrigin(), vInner)";
   case Coverage::Box:
-    return "insideBox(p, vOuter) - insideBox(p, vInner)";
+    return "insideBox(fromOrigin(), vOuter) - insideBox(fromOrigin(), vInner)";
   case Coverage::Whole:
     break;
   }
@@ -266,7 +276,7 @@ const char* coverageExpression(Coverage coverage) {
 
 const char* resultExpression(const ProgramKind& kind) {
   if (kind.coverage == Coverage::DiscOnGround) return "onGround(vColor, covered, vInner.rgb)";
-  return kind.paint == PaintSource::Color ? "vColor * covered" : "pattern(p) * covered";
+  return kind.paint == PaintSource::Color ? "vColor * covered" : "pattern(fromOrigin()) * covered";
 }
 
 std::string preamble(const ProgramKind& kind) {
@@ -276,6 +286,10 @@ std::string preamble(const ProgramKind& kind) {
                      "#define precise\n"
                      "#endif\n";
   if (kind.coverage == Coverage::Whole) text += "#define WHOLE\n";
+  const bool arcs = kind.coverage == Coverage::Disc || kind.coverage == Coverage::DiscOnGround ||
+                    kind.coverage == Coverage::Ring;
+  if (kind.paint != PaintSource::Color || (!arcs && kind.coverage != Coverage::Whole))
+    text += "#define HAS_ORIGIN\n";
   if (kind.coverage != Coverage::Disc && kind.coverage != Coverage::Whole) text += "#define HAS_INNER\n";
   if (kind.paint != PaintSource::Color) text += "#define PATTERN\n";
   if (kind.footprint == Footprint::Point) text += "#define POINT\n";
@@ -297,7 +311,6 @@ std::string fragmentSource(const ProgramKind& kind) {
   if (kind.paint != PaintSource::Color) text += kPattern;
   if (kind.coverage == Coverage::Whole) return text + "void main() { result = vColor; }\n";
   text += fmt::format("void main() {{\n"
-                      "  vec2 p = gl_FragCoord.xy - vOrigin;\n"
                       "  float covered = {};\n"
                       "  result = {};\n"
                       "}}\n",

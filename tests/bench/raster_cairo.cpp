@@ -1,12 +1,13 @@
-// raster_cairo N FRAMES [circles|pattern]: workload R drawn by cairo. Prints CPU ms a frame and the peak memory in KiB.
+// raster_cairo N FRAMES [circles|pattern]: workload R drawn by cairo. Prints CPU ms a frame and the peak
+// memory in KiB.
 #include "tests/bench/measure.h"
 #include "tests/bench/workload.h"
 
+#include <cairo/cairo.h>
 #include <cstdlib>
 #include <numbers>
 #include <string>
 
-#include <cairo/cairo.h>
 #include <fmt/format.h>
 
 namespace {

@@ -1,5 +1,5 @@
-// raster_offstage N FRAMES [circles|pattern|paused|first]: workload R drawn into memory. Prints CPU ms a frame and the
-// peak memory in KiB; with `first`, what the first frame consists of.
+// raster_offstage N FRAMES [circles|pattern|paused|first]: workload R drawn into memory. Prints CPU ms a
+// frame and the peak memory in KiB; with `first`, what the first frame consists of.
 #include "render/raster/canvas.h"
 #include "tests/bench/measure.h"
 #include "tests/bench/workload.h"
@@ -22,7 +22,8 @@ std::shared_ptr<const Image> patternImage() {
   for (std::uint32_t y = 0; y < kPatternSide; ++y) {
     for (std::uint32_t x = 0; x < kPatternSide; ++x) {
       const std::uint32_t texel = patternTexel(x, y);
-      for (const std::uint32_t shift : {16U, 8U, 0U}) image->rgba.push_back(static_cast<std::uint8_t>(texel >> shift));
+      for (const std::uint32_t shift : {16U, 8U, 0U})
+        image->rgba.push_back(static_cast<std::uint8_t>(texel >> shift));
       image->rgba.push_back(255);
     }
   }
@@ -69,7 +70,8 @@ int main(int argc, char** argv) {
   const double atFirst = cpuSeconds();
   if (mode == "first") {
     draw();
-    fmt::print("libraries loaded: {:.1f} ms, context: {:.1f} ms, first frame (shaders): {:.1f} ms, second: {:.1f} ms\n",
+    fmt::print("libraries loaded: {:.1f} ms, context: {:.1f} ms, first frame (shaders): {:.1f} ms, second: "
+               "{:.1f} ms\n",
                1e3 * atStart, 1e3 * (atCanvas - atStart), 1e3 * (atFirst - atCanvas),
                1e3 * (cpuSeconds() - atFirst));
     return 0;
