@@ -23,7 +23,7 @@ Still drawStill(SceneSource& source, double at, int strobe) {
     const double share = strobe == 1 ? 1.0 : static_cast<double>(moment) / static_cast<double>(strobe - 1);
     const std::int64_t frame = clock.frameAt(at * share + 1e-9);
     while (source.frame() < frame) source.step();
-    for (const Body& body : source.world().bodies()) {
+    for (const Body& body : source.bodies()) {
       const auto [place, isNew] = drawnAt.try_emplace(body.id, body.position);
       if (!isNew && place->second == body.position) continue;
       place->second = body.position;

@@ -19,6 +19,7 @@ constexpr SceneKey kKeys[] = {
     {"", "launch", "tables", "", "none"},
     {"", "collide", "tables", "", "none"},
     {"", "force", "tables", "", "none"},
+    {"", "replay", "table", "", "none"},
 
     {"frame", "size", "[width, height]", "px", "[640, 480]"},
     {"frame", "background", "colour", "", "\"white\""},
@@ -146,6 +147,19 @@ constexpr SceneKey kKeys[] = {
 
     {"force.expression", "fx", "expression", "mass·px/s²", "\"0\""},
     {"force.expression", "fy", "expression", "mass·px/s²", "\"0\""},
+
+    {"replay", "trace", "file", "", "required"},
+    {"replay", "start", "number", "s", "the first row's time"},
+    {"replay", "fill", "paint", "", "\"black\""},
+    {"replay", "stroke", "table", "", "none"},
+    {"replay", "opacity", "number", "", "1"},
+    {"replay", "look", "tables", "", "none"},
+
+    {"replay.look", "id", "integer", "", "required"},
+    {"replay.look", "group", "string", "", "required"},
+    {"replay.look", "fill", "paint", "", "\"black\""},
+    {"replay.look", "stroke", "table", "", "none"},
+    {"replay.look", "opacity", "number", "", "1"},
 };
 // clang-format on
 

@@ -121,6 +121,11 @@ std::string dump(const Scene& scene) {
                     rule.restitution, rule.separate, rule.approachingOnly);
   }
   for (const Force& force : world.forces) text += "\nforce " + dump(force);
+  if (scene.replay) {
+    for (const Replay::Frame& frame : scene.replay->frames)
+      text += fmt::format("\nreplay {} {}+{}", frame.time, frame.first, frame.count);
+    text += fmt::format("\nlooks {}", fmt::join(scene.replay->looks, " "));
+  }
   return text;
 }
 
