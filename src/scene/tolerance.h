@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace offstage {
@@ -36,11 +37,17 @@ struct Tolerance {
   std::vector<std::filesystem::path> masks;
   bool strictAlpha = false; ///< the colour hidden under alpha 0 is compared too
 
+  /// The file that it was read from, for messages; empty: none.
+  std::filesystem::path file;
+
   /// Whether differing pixels are limited at all; see above.
   [[nodiscard]] bool limitsPixels() const {
     const bool given = maxChannel || maxPixels || maxRatio || maxCluster;
     return given || (!flipMax && !ssimMin);
   }
 };
+
+/// The tolerance in words, every limit in force with its value: "no pixel may differ".
+std::string toleranceText(const Tolerance& tolerance);
 
 } // namespace offstage
