@@ -23,9 +23,11 @@ const std::vector<Layer>& layers() {
       {"render/raster", {"src/sim", "src/scene", "render/draw"}},
       {"render/output", {"src/sim", "src/scene", "render/draw", "render/raster"}},
       {"render/compare", {"src/sim", "src/scene", "render/draw", "render/raster", "render/output"}},
-      {"render/job", {"src/sim", "src/scene", "render/draw", "render/raster", "render/output"}},
+      {"render/job",
+       {"src/sim", "src/scene", "render/draw", "render/raster", "render/output", "render/compare"}},
       {"render/stage",
-       {"src/sim", "src/scene", "render/draw", "render/raster", "render/output", "render/job"}},
+       {"src/sim", "src/scene", "render/draw", "render/raster", "render/output", "render/compare",
+        "render/job"}},
   };
   return all;
 }

@@ -112,6 +112,7 @@ Entries baseOf(const std::string& table) {
       {"force.expression", {{"type", "\"expression\""}, {"fx", "\"1\""}, {"fy", "\"2\""}}},
       {"replay", {{"trace", "\"student.csv\""}}},
       {"replay.look", {{"id", "2"}}},
+      {"golden", {{"at", "[0.5]"}}},
   };
   const auto found = bases.find(table);
   return found == bases.end() ? Entries{} : found->second;
@@ -145,6 +146,7 @@ Entries with(const std::string& table, const std::string& key, const std::string
   if (table == "launch" && key == "frame") drop({"at"});
   if (table == "fill" && key == "cycle") drop({"image"});
   if (table == "replay.look" && key == "group") drop({"id"});
+  if (table == "golden" && key == "every") drop({"at"});
   if (table == "random") drop({"uniform"});
   if (table == "stroke" && (key == "anchor" || key == "proportional")) set(entries, "image", "\"image.png\"");
   if ((table == "fill" || table == "stroke") && key == "proportional") set(entries, "anchor", "[0, 0, 1, 1]");
@@ -189,6 +191,9 @@ std::string valueOf(const DocumentedKey& key) {
       {"[low, high]", "[1, 2]"},
       {"[mean, deviation]", "[1, 2]"},
       {"number or list", "[0.5, 1]"},
+      {"list of numbers", "[0.5, 1]"},
+      {"list of [x, y, width, height]", "[[1, 2, 3, 4]]"},
+      {"file or list", "\"image.png\""},
       {"integer or list", "[5, 6]"},
       {"[x, y] or name", "\"b\""},
       {"[group, group]", "[\"bodies\", \"bodies\"]"},
@@ -207,6 +212,7 @@ std::string valueOf(const DocumentedKey& key) {
   if (key.key == "recorded") return "\"log.dt\"";
   if (key.key == "trace") return "\"student.csv\"";
   if (key.key == "replay") return "{ trace = \"student.csv\" }";
+  if (key.key == "golden") return "{ at = [1] }";
   if (key.key == "look") return "[{ id = 2, fill = \"red\" }]";
   if (key.table == "force" && key.key == "group") return "\"bodies\"";
   if (key.type == "file") return "\"image.png\"";

@@ -3,6 +3,8 @@
 #include "src/scene/quote.h"
 
 #include <algorithm>
+#include <chrono>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -79,6 +81,23 @@ ReportCase reportCase(const std::string& name, const TraceComparison& comparison
   if (comparison.velocityCompared)
     result.curves.push_back(
         {"velocity_error", "velocity error", "px/s", comparison.times, comparison.velocityError});
+  return result;
+}
+
+CompareResult compareTraceFiles(const std::filesystem::path& expected, const std::filesystem::path& actual,
+                                const TraceTolerance& tolerance, std::optional<TraceMatch> match) {
+  const auto start = std::chrono::steady_clock::now();
+  const TraceComparison comparison = compareTraces(readTrace(expected), readTrace(actual), tolerance, match);
+  CompareResult result;
+  Report& report = result.report;
+  report.title = fmt::format("offstage diff {} {}", expected.string(), actual.string());
+  report.suite = "offstage.diff";
+  report.tolerance = describe(tolerance);
+  ReportCase one = reportCase(actual.filename().string(), comparison);
+  one.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report.passed = one.passed;
+  report.verdict = one.verdict;
+  report.cases.push_back(std::move(one));
   return result;
 }
 

@@ -16,6 +16,7 @@ void addRender(CLI::App& app, Action& action);
 void addStill(CLI::App& app, Action& action);
 void addTrace(CLI::App& app, Action& action);
 void addDiff(CLI::App& app, Action& action);
+void addGolden(CLI::App& app, Action& action);
 void addCheck(CLI::App& app, Action& action);
 void addDoctor(CLI::App& app, Action& action);
 

@@ -1,9 +1,11 @@
 #include "render/compare/compare_files.h"
+#include "render/compare/trace_report.h"
 #include "render/job/number_option.h"
 #include "render/output/atomic_file.h"
 #include "render/output/png.h"
 #include "src/app/commands.h"
 #include "src/app/tolerance_options.h"
+#include "src/app/trace_options.h"
 
 #include <iostream>
 #include <memory>
@@ -15,6 +17,7 @@ struct Arguments {
   std::filesystem::path expected;
   std::filesystem::path actual;
   ToleranceOptions tolerance;
+  TraceOptions trace;
   std::string metric = "fast";
   std::optional<std::int64_t> maxPixels;
   std::optional<double> fps;
@@ -24,9 +27,17 @@ struct Arguments {
   std::filesystem::path strip;
 };
 
-CompareResult compare(const Arguments& arguments) {
+CompareResult compare(const Arguments& arguments, const CLI::App& verb) {
   const InputKind expected = inputKind(arguments.expected);
   const InputKind actual = inputKind(arguments.actual);
+  const bool traces = expected == InputKind::Trace && actual == InputKind::Trace;
+  requireFittingOptions(verb, traces);
+  if (traces)
+    return compareTraceFiles(arguments.expected, arguments.actual, arguments.trace.tolerance(),
+                             arguments.trace.match);
+  if (expected == InputKind::Trace || actual == InputKind::Trace)
+    throw Error(ExitCode::BadInput, fmt::format("'{}' and '{}' are of different kinds: a trace, and pictures",
+                                                arguments.expected.string(), arguments.actual.string()));
   const bool folder = std::filesystem::is_directory(arguments.expected);
   CompareOptions options;
   options.tolerance = arguments.tolerance.in(folder ? arguments.expected : arguments.expected.parent_path());
@@ -52,7 +63,7 @@ void writePng(const std::filesystem::path& path, const Frame& frame) {
   file.commit();
 }
 
-int run(const Arguments& arguments) {
+int run(const Arguments& arguments, const CLI::App& verb) {
   // Before a long comparison.
   if (!arguments.strip.empty() && arguments.strip.extension() != ".png")
     throw Error(ExitCode::BadInput,
@@ -60,7 +71,7 @@ int run(const Arguments& arguments) {
   for (const std::filesystem::path& file : {arguments.strip, arguments.junit})
     if (!file.empty()) requireWritable(file);
 
-  const CompareResult result = compare(arguments);
+  const CompareResult result = compare(arguments, verb);
   if (result.strip) writePng(arguments.strip, *result.strip);
   if (!arguments.junit.empty()) writeJunit(arguments.junit, result.report);
   if (!arguments.html.empty()) writeHtml(arguments.html, result.report);
@@ -77,9 +88,10 @@ int run(const Arguments& arguments) {
 void addDiff(CLI::App& app, Action& action) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App& verb = *app.add_subcommand(
-      "diff", "Compare pictures, frame sequences or videos: exit status 0 same, 1 different");
+      "diff", "Compare pictures, frame sequences, videos or traces: exit status 0 same, 1 different");
   verb.add_option("EXPECTED", arguments->expected,
-                  "a picture (PNG, JPEG, BMP), a folder, a pattern such as frames/%06d.png, or a video")
+                  "a picture (PNG, JPEG, BMP), a folder, a pattern such as frames/%06d.png, a video, or a "
+                  "trace (.csv)")
       ->required();
   verb.add_option("ACTUAL", arguments->actual, "what is held against it")->required();
   verb.add_flag("--json", arguments->json, "print the result as JSON");
@@ -98,7 +110,9 @@ void addDiff(CLI::App& app, Action& action) {
   addNumber(verb, "--fps", arguments->fps, "N", "frames a second of folders and patterns, for times", 1e-3,
             1e6);
   addToleranceOptions(verb, arguments->tolerance);
-  verb.callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
+  addTraceOptions(verb, arguments->trace);
+  verb.callback(
+      [arguments, &action, &verb] { action = [arguments, &verb] { return run(*arguments, verb); }; });
 }
 
 } // namespace offstage

@@ -47,6 +47,7 @@ int main(int argc, char** argv) {
   offstage::addStill(app, action);
   offstage::addTrace(app, action);
   offstage::addDiff(app, action);
+  offstage::addGolden(app, action);
   offstage::addCheck(app, action);
   offstage::addDoctor(app, action);
   return offstage::runCommandLine(app, argc, argv, [&] { return action(); });

@@ -88,6 +88,7 @@ void parseTables(SceneBuilder& builder, const TomlValue& root, const SceneOverri
   scene.world.pane = Vec2(scene.size[0], scene.size[1]);
   parseClock(builder, singleTable(top, "clock"), top, overrides);
   if (const TomlValue* replay = singleTable(top, "replay")) parseReplay(builder, *replay, top, overrides);
+  parseSingle(builder, top, "golden", parseGolden);
   // The view and the world's integrator come before everything that they hold for.
   parseSingle(builder, top, "view", parseView);
   parseSingle(builder, top, "world", parseWorld);

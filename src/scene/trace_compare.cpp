@@ -54,9 +54,9 @@ double errorOf(double expected, double actual) {
   return std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
 }
 
-class Comparer {
+class TraceComparer {
 public:
-  Comparer(const Trace& expected, const Trace& actual, const TraceTolerance& tolerance)
+  TraceComparer(const Trace& expected, const Trace& actual, const TraceTolerance& tolerance)
       : expected_(expected), actual_(actual), tolerance_(tolerance) {
     result_.velocityCompared = expected.hasVelocity && actual.hasVelocity;
     result_.lastFrame = {lastFrame(expected), lastFrame(actual)};
@@ -114,13 +114,13 @@ private:
   std::vector<FrameError> frames_; ///< by index into the expected trace's frames
 };
 
-double Comparer::limitOf(TraceQuantity quantity) const {
+double TraceComparer::limitOf(TraceQuantity quantity) const {
   if (quantity == TraceQuantity::Time) return tolerance_.time;
   return isVelocity(quantity) ? tolerance_.velocity : tolerance_.position;
 }
 
 /// Walks through two lives side by side; one of them may be empty.
-void Comparer::compareBodies(const TraceBody& expected, const TraceBody& actual) {
+void TraceComparer::compareBodies(const TraceBody& expected, const TraceBody& actual) {
   std::size_t i = 0;
   std::size_t j = 0;
   while (i < expected.rows.size() || j < actual.rows.size()) {
@@ -140,7 +140,7 @@ void Comparer::compareBodies(const TraceBody& expected, const TraceBody& actual)
   }
 }
 
-void Comparer::compareRows(const TraceRow& expected, const TraceRow& actual) {
+void TraceComparer::compareRows(const TraceRow& expected, const TraceRow& actual) {
   const auto frame = std::lower_bound(
       expected_.frames.begin(), expected_.frames.end(), expected.frame,
       [](const TraceFrame& candidate, std::int64_t number) { return candidate.number < number; });
@@ -180,7 +180,7 @@ void Comparer::compareRows(const TraceRow& expected, const TraceRow& actual) {
   if (!first || std::tie(told->frame, told->body) < std::tie(first->frame, first->body)) result_.first = told;
 }
 
-void Comparer::notePresence(const TraceRow& row, bool inExpected) {
+void TraceComparer::notePresence(const TraceRow& row, bool inExpected) {
   ++(inExpected ? result_.missing : result_.extra);
   if (row.frame > std::min(result_.lastFrame[0], result_.lastFrame[1])) return; // the other one has ended
   auto& first = result_.firstPresence;
@@ -188,7 +188,7 @@ void Comparer::notePresence(const TraceRow& row, bool inExpected) {
 }
 
 /// Finds the first event of each kind that the other body does not have in the same frame.
-void Comparer::compareEvents(const TraceBody* expected, const TraceBody* actual) {
+void TraceComparer::compareEvents(const TraceBody* expected, const TraceBody* actual) {
   const std::int64_t firstFrame = std::min(expected_.frames.empty() ? 0 : expected_.frames.front().number,
                                            actual_.frames.empty() ? 0 : actual_.frames.front().number);
   std::vector<TraceEvent> ofExpected;
@@ -220,7 +220,7 @@ void Comparer::compareEvents(const TraceBody* expected, const TraceBody* actual)
   }
 }
 
-void Comparer::noteEvent(const TraceEvent& event, std::int64_t body, bool inExpected,
+void TraceComparer::noteEvent(const TraceEvent& event, std::int64_t body, bool inExpected,
                          std::optional<std::int64_t> otherFrame) {
   // An event behind the other trace's end is not missing there; it was never reached.
   if (event.frame > result_.lastFrame[inExpected ? 1 : 0]) return;
@@ -229,7 +229,7 @@ void Comparer::noteEvent(const TraceEvent& event, std::int64_t body, bool inExpe
   first = TraceEventDifference{event, body, inExpected, otherFrame};
 }
 
-void Comparer::takeCurves() {
+void TraceComparer::takeCurves() {
   for (std::size_t i = 0; i < frames_.size(); ++i) {
     if (!frames_[i].compared) continue;
     result_.times.push_back(expected_.frames[i].time);
@@ -252,7 +252,7 @@ std::string_view unit(TraceQuantity quantity) {
 
 TraceComparison compareTraces(const Trace& expected, const Trace& actual, const TraceTolerance& tolerance,
                               std::optional<TraceMatch> match) {
-  return Comparer(expected, actual, tolerance).compare(match);
+  return TraceComparer(expected, actual, tolerance).compare(match);
 }
 
 } // namespace offstage
