@@ -1,5 +1,6 @@
 #include "src/scene/trace_events.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -54,8 +55,11 @@ std::vector<TraceEvent> traceEvents(const Trace& trace, const TraceBody& body, s
   const TraceRow& first = trace.rows[body.rows.front()];
   const TraceRow& last = trace.rows[body.rows.back()];
   if (first.frame > firstFrame) events.push_back({TraceEventKind::Spawn, first.frame, first.time, 0.0, 0.0});
-  if (last.frame < trace.frames.back().number)
-    events.push_back({TraceEventKind::Removal, last.frame + 1, last.time, 0.0, 0.0});
+  const auto next =
+      std::upper_bound(trace.frames.begin(), trace.frames.end(), last.frame,
+                       [](std::int64_t number, const TraceFrame& frame) { return number < frame.number; });
+  if (next != trace.frames.end())
+    events.push_back({TraceEventKind::Removal, next->number, next->time, 0.0, 0.0});
 
   for (const TraceEventKind kind : {TraceEventKind::BounceX, TraceEventKind::BounceY}) {
     const bool isX = kind == TraceEventKind::BounceX;

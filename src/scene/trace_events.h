@@ -18,9 +18,10 @@ enum class TraceEventKind : std::uint8_t {
 
 struct TraceEvent {
   TraceEventKind kind = TraceEventKind::Spawn;
-  std::int64_t frame =
-      0; ///< Spawn: the first with it; Removal: the first without it; a bounce: the first after it
-  double time = 0.0;   ///< s: of that frame, or of the last one with the body
+  /// A spawn: the first frame with the body. A removal: the first of the trace without it. A bounce: the
+  /// first frame after it.
+  std::int64_t frame = 0;
+  double time = 0.0;   ///< s: of that frame
   double before = 0.0; ///< px/s: of a bounce, the component in the frame before
   double after = 0.0;  ///< px/s: … and in this one
 };
