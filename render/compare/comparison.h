@@ -28,7 +28,10 @@ struct PixelPair {
 /// LDR-FLIP errors pooled over a picture (0 equal … 1), as the reference tool pools them: the quartiles are
 /// weighted by the error itself.
 struct FlipSummary {
+  /// As the tool has it, which adds up in single precision, row by row: in pictures of millions of pixels
+  /// that loses digits.
   double mean = 0.0;
+  double exactMean = 0.0; ///< the same sum in double precision
   double firstQuartile = 0.0;
   double median = 0.0;
   double thirdQuartile = 0.0;

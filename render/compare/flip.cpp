@@ -119,12 +119,16 @@ FlipMap flipMap(const PixelRows& reference, const PixelRows& test, int threads) 
 FlipSummary poolFlip(const FlipMap& map) {
   FlipSummary summary;
   double total = 0.0;
+  float totalOfTool = 0.0F;
   for (const float error : map.errors) {
     total += static_cast<double>(error);
+    totalOfTool += error;
     summary.max = std::max(summary.max, static_cast<double>(error));
   }
   if (total == 0.0) return summary;
-  summary.mean = total / static_cast<double>(map.errors.size());
+  const auto pixels = static_cast<double>(map.errors.size());
+  summary.mean = static_cast<double>(totalOfTool) / pixels;
+  summary.exactMean = total / pixels;
   findQuartiles(map.errors, total, summary);
   return summary;
 }

@@ -3,12 +3,14 @@
 #include "render/compare/vector_clones.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
 
 namespace offstage {
 namespace {
+
+// Floats, and every sum in the reference tool's order: near white its roundings show in the fifth digit of an
+// error, and equal figures should be equal.
 
 constexpr float kPi = std::numbers::pi_v<float>;
 /// Of a screen 0.7 m wide with 3840 px, seen from 0.7 m.
@@ -61,7 +63,7 @@ private:
     float sumCz1 = 0.0F;
     float sumCz2 = 0.0F;
     for (std::size_t i = 0; i < kTaps; ++i) {
-      const float x = (static_cast<float>(i) - kFlipReach) / kPixelsPerDegree;
+      const float x = (static_cast<float>(i) - kFlipReach) * (1.0F / kPixelsPerDegree);
       sumY += y[i] = gaussian(x * x, 1.0F, 0.0047F);
       sumCx += cx[i] = gaussian(x * x, 1.0F, 0.0053F);
       // A two-dimensional Gaussian's amplitude, halved between the two directions.
@@ -70,17 +72,18 @@ private:
     }
     const float sumCz = std::sqrt(sumCz1 * sumCz1 + sumCz2 * sumCz2);
     for (std::size_t i = 0; i < kTaps; ++i) {
-      y[i] /= sumY;
-      cx[i] /= sumCx;
-      cz1[i] /= sumCz;
-      cz2[i] /= sumCz;
+      y[i] *= 1.0F / sumY;
+      cx[i] *= 1.0F / sumCx;
+      cz1[i] *= 1.0F / sumCz;
+      cz2[i] *= 1.0F / sumCz;
     }
   }
 
   void features() {
     constexpr float kDeviation = 0.5F * kFeatureWidth * kPixelsPerDegree;
     float sum = 0.0F;
-    float slopeSum = 0.0F; // of the positive part; the negative one has the same
+    float slopeUp = 0.0F;
+    float slopeDown = 0.0F;
     float curveUp = 0.0F;
     float curveDown = 0.0F;
     for (int offset = -kFeatureReach; offset <= kFeatureReach; ++offset) {
@@ -91,12 +94,12 @@ private:
       slope[i] = -x * g;
       curve[i] = (x * x / (kDeviation * kDeviation) - 1.0F) * g;
       sum += g;
-      slopeSum += std::max(slope[i], 0.0F);
+      (slope[i] > 0.0F ? slopeUp : slopeDown) += std::abs(slope[i]);
       (curve[i] > 0.0F ? curveUp : curveDown) += std::abs(curve[i]);
     }
     for (std::size_t i = 0; i < kTaps; ++i) {
       gauss[i] /= sum;
-      slope[i] /= slopeSum;
+      slope[i] /= slope[i] > 0.0F ? slopeUp : slopeDown;
       curve[i] /= curve[i] > 0.0F ? curveUp : curveDown;
     }
   }
@@ -127,40 +130,29 @@ using Lanes = std::array<float, kLanes>;
   }
 }
 
-/// Beyond so many pixels the weights of the filters of Y and Cx are below 10⁻⁹.
-constexpr int kReachY = 7;
-
 OFFSTAGE_VECTOR_CLONES
 void filterAlongX(const FlipPlanes& planes, int rows, FlipScratch& out) {
   const Filters& f = filters();
+  std::array<float, kFlipStride> lightness{};
   for (std::size_t row = 0; row < static_cast<std::size_t>(rows) + 2 * kFlipReach; ++row) {
     const std::size_t in = row * kFlipStride;
     const std::size_t to = row * kTileWidth;
-    convolve(f.y, kReachY, &planes.y[in], 1, &out.y[to]);
-    convolve(f.cx, kReachY, &planes.cx[in], 1, &out.cx[to]);
+    convolve(f.y, kFlipReach, &planes.y[in], 1, &out.y[to]);
+    convolve(f.cx, kFlipReach, &planes.cx[in], 1, &out.cx[to]);
     convolve(f.cz1, kFlipReach, &planes.cz[in], 1, &out.cz1[to]);
     convolve(f.cz2, kFlipReach, &planes.cz[in], 1, &out.cz2[to]);
-    convolve(f.gauss, kFeatureReach, &planes.y[in], 1, &out.gauss[to]);
-    convolve(f.slope, kFeatureReach, &planes.y[in], 1, &out.slope[to]);
-    convolve(f.curve, kFeatureReach, &planes.y[in], 1, &out.curve[to]);
+    // The feature detectors look at Y scaled to 0 … 1.
+    for (std::size_t x = 0; x < kFlipStride; ++x)
+      lightness[x] = planes.y[in + x] * (1.0F / 116.0F) + 16.0F / 116.0F;
+    convolve(f.gauss, kFeatureReach, lightness.data(), 1, &out.gauss[to]);
+    convolve(f.slope, kFeatureReach, lightness.data(), 1, &out.slope[to]);
+    convolve(f.curve, kFeatureReach, lightness.data(), 1, &out.curve[to]);
   }
-}
-
-/// To within a rounding of a float; x in 0.008 … 1.1. Halley's iteration from a third of the exponent.
-float cubeRoot(float x) {
-  const auto bits = static_cast<float>(std::bit_cast<std::int32_t>(x));
-  float root = std::bit_cast<float>(static_cast<std::int32_t>(bits * (1.0F / 3.0F)) + 709921077);
-  for (int i = 0; i < 2; ++i) {
-    const float cube = root * root * root;
-    root = root * (cube + 2.0F * x) / (2.0F * cube + x);
-  }
-  return root;
 }
 
 float labCurve(float t) {
-  const float root = cubeRoot(t);
-  const float line = t * (1.0F / (3.0F * kDelta * kDelta)) + 4.0F / 29.0F;
-  return t > kDelta * kDelta * kDelta ? root : line;
+  if (t > kDelta * kDelta * kDelta) return std::pow(t, 1.0F / 3.0F);
+  return t * (1.0F / (3.0F * kDelta * kDelta)) + 4.0F / 29.0F;
 }
 
 float clamped(float x) {
@@ -185,8 +177,8 @@ void filterAlongY(const FlipScratch& in, int rows, FlipResponse& out) {
   Row y, cx, cz1, cz2, slopeX, slopeY, curveX, curveY;
   for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row) {
     const std::size_t from = row * kTileWidth;
-    convolve(f.y, kReachY, &in.y[from], kTileWidth, y.data());
-    convolve(f.cx, kReachY, &in.cx[from], kTileWidth, cx.data());
+    convolve(f.y, kFlipReach, &in.y[from], kTileWidth, y.data());
+    convolve(f.cx, kFlipReach, &in.cx[from], kTileWidth, cx.data());
     convolve(f.cz1, kFlipReach, &in.cz1[from], kTileWidth, cz1.data());
     convolve(f.cz2, kFlipReach, &in.cz2[from], kTileWidth, cz2.data());
     convolve(f.gauss, kFeatureReach, &in.slope[from], kTileWidth, slopeX.data());
@@ -201,9 +193,8 @@ void filterAlongY(const FlipScratch& in, int rows, FlipResponse& out) {
       const float g = clamped(kFromXyz.yr * xyzX + kFromXyz.yg * white + kFromXyz.yb * xyzZ);
       const float b = clamped(kFromXyz.zr * xyzX + kFromXyz.zg * white + kFromXyz.zb * xyzZ);
       toHuntLab(r, g, b, out.lightness[from + x], out.red[from + x], out.blue[from + x]);
-      // The detectors look at Y scaled to 0 … 1; the constant part falls out of derivatives.
-      out.edge[from + x] = std::sqrt(slopeX[x] * slopeX[x] + slopeY[x] * slopeY[x]) / 116.0F;
-      out.point[from + x] = std::sqrt(curveX[x] * curveX[x] + curveY[x] * curveY[x]) / 116.0F;
+      out.edge[from + x] = std::sqrt(slopeX[x] * slopeX[x] + slopeY[x] * slopeY[x]);
+      out.point[from + x] = std::sqrt(curveX[x] * curveX[x] + curveY[x] * curveY[x]);
     }
   }
 }
@@ -273,7 +264,7 @@ void flipErrors(const FlipResponse& reference, const FlipResponse& test, int row
     const float feature =
         std::max(std::abs(reference.edge[i] - test.edge[i]), std::abs(reference.point[i] - test.point[i]));
     // The exponent qf of the feature difference is 1/2.
-    errors[column] = std::pow(color, 1.0F - std::sqrt(feature / std::numbers::sqrt2_v<float>));
+    errors[column] = std::pow(color, 1.0F - std::sqrt(feature * (1.0F / std::numbers::sqrt2_v<float>)));
   }
 }
 

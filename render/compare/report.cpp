@@ -80,6 +80,7 @@ std::vector<ReportNumber> reportNumbers(const Comparison& c) {
     add("pixelmatch_include_aa", "pixelmatch with includeAA", *c.pixelmatchWithAa, "px");
   if (c.flip) {
     add("flip_mean", "FLIP mean", c.flip->mean);
+    add("flip_mean_exact", "FLIP mean, summed exactly", c.flip->exactMean);
     add("flip_q1", "FLIP first weighted quartile", c.flip->firstQuartile);
     add("flip_median", "FLIP weighted median", c.flip->median);
     add("flip_q3", "FLIP third weighted quartile", c.flip->thirdQuartile);

@@ -88,5 +88,7 @@ void writeJunit(const std::filesystem::path& file, const Report& report);
 /// sheet and one script. An earlier report there is replaced; a folder that holds anything else is refused
 /// with Error(BadInput).
 void writeHtml(const std::filesystem::path& folder, const Report& report);
+/// Throws the Error that writeHtml would, before a long comparison.
+void requireReportFolder(const std::filesystem::path& folder);
 
 } // namespace offstage

@@ -53,10 +53,14 @@ std::string jsonLines(const std::vector<std::string>& lines) {
   return list(items);
 }
 
+std::string jsonValue(const ReportNumber& number) {
+  return std::visit(ValueJson{}, number.value);
+}
+
 std::string jsonMembers(const std::vector<ReportNumber>& numbers) {
   std::string text;
   for (const ReportNumber& number : numbers)
-    text += fmt::format(", {}: {}", jsonText(number.key), std::visit(ValueJson{}, number.value));
+    text += fmt::format(", {}: {}", jsonText(number.key), jsonValue(number));
   return text;
 }
 

@@ -70,6 +70,7 @@ int run(const Arguments& arguments, const CLI::App& verb) {
                 fmt::format("--strip '{}' is a PNG; end its name in .png", arguments.strip.string()));
   for (const std::filesystem::path& file : {arguments.strip, arguments.junit})
     if (!file.empty()) requireWritable(file);
+  if (!arguments.html.empty()) requireReportFolder(arguments.html);
 
   const CompareResult result = compare(arguments, verb);
   if (result.strip) writePng(arguments.strip, *result.strip);
