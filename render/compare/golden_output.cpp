@@ -55,6 +55,7 @@ GoldenOutput::GoldenOutput(std::filesystem::path folder, const std::filesystem::
   if (!std::filesystem::is_directory(folder_))
     throw Error(ExitCode::BadInput, fmt::format("{}: the folder cannot be made: {}",
                                                 printable(folder_.string()), error.message()));
+  requireReportFolder(reportFolder());
   std::vector<std::filesystem::path> old;
   for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
     if (entry.is_regular_file() && isOurs(entry.path().filename().string())) old.push_back(entry.path());

@@ -56,7 +56,7 @@ void tellPhysics(const GoldenPicture& picture, const std::optional<StatesDiffere
     return;
   }
   report.lines.push_back(fmt::format("first frame that differs: {}", *run->firstFrame));
-  report.numbers.push_back({"first_differing_frame", "first frame that differs", *run->firstFrame});
+  report.numbers.push_back({"first_differing_frame", "", *run->firstFrame});
   const TraceComparison& comparison = run->comparison;
   if (comparison.firstPresence &&
       (!comparison.first || comparison.firstPresence->frame <= comparison.first->frame)) {
@@ -72,12 +72,12 @@ void tellPhysics(const GoldenPicture& picture, const std::optional<StatesDiffere
   if (id < bodyNames.size() && !bodyNames[id].empty())
     line += fmt::format("; body {} is {}", first.body, quotedText(bodyNames[id]));
   report.lines.push_back(line);
-  report.numbers.push_back({"state_frame", "compared in frame", first.frame});
-  report.numbers.push_back({"state_body", "body", first.body});
-  report.numbers.push_back({"state_quantity", "quantity", std::string(name(first.quantity))});
-  report.numbers.push_back({"state_expected", "recorded", first.expected, std::string(unit(first.quantity))});
-  report.numbers.push_back({"state_actual", "now", first.actual, std::string(unit(first.quantity))});
-  report.numbers.push_back({"state_error", "off by", first.error, std::string(unit(first.quantity))});
+  report.numbers.push_back({"state_frame", "", first.frame});
+  report.numbers.push_back({"state_body", "", first.body});
+  report.numbers.push_back({"state_quantity", "", std::string(name(first.quantity))});
+  report.numbers.push_back({"state_expected", "", first.expected, std::string(unit(first.quantity))});
+  report.numbers.push_back({"state_actual", "", first.actual, std::string(unit(first.quantity))});
+  report.numbers.push_back({"state_error", "", first.error, std::string(unit(first.quantity))});
 }
 
 /// Where another machine may be the reason, both are told.
@@ -179,7 +179,8 @@ GoldenFinding GoldenStore::verify(const GoldenPicture& picture, const Tolerance*
   }
   finding.report.verdict = name(finding.verdict);
   finding.report.passed = finding.verdict == GoldenVerdict::Same;
-  finding.report.severity = severityOf(finding.verdict);
+  // Among goldens of one verdict, those whose pictures differ more come first.
+  finding.report.severity = severityOf(finding.verdict) + std::min(finding.report.severity / 4.0, 0.9);
   if (!finding.report.passed) finding.report.pictures.push_back(std::move(pictures));
   return finding;
 }

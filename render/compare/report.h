@@ -16,7 +16,7 @@ namespace offstage {
 /// A number or word of a case, under the name that JSON gives it.
 struct ReportNumber {
   std::string key;   ///< "differing_pixels": JSON's key
-  std::string label; ///< "differing pixels": what people read
+  std::string label; ///< "differing pixels": what people read; empty: for programs, people are not shown it
   /// Doubles that are not finite become null in JSON; a list of integers is an array.
   std::variant<std::int64_t, double, std::string, bool, std::vector<std::int64_t>> value;
   std::string unit{}; ///< "px", "dB", …; empty without one

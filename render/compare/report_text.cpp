@@ -29,7 +29,7 @@ void writeNumbers(std::ostream& out, const std::vector<ReportNumber>& numbers) {
   std::size_t widest = 0;
   for (const ReportNumber& number : numbers) widest = std::max(widest, number.label.size());
   for (const ReportNumber& number : numbers)
-    out << fmt::format("  {:<{}}  {}\n", number.label, widest, valueText(number));
+    if (!number.label.empty()) out << fmt::format("  {:<{}}  {}\n", number.label, widest, valueText(number));
 }
 
 /// "(255, 255, 255)", alpha only where it is not 255 in both.

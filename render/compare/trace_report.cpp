@@ -11,24 +11,30 @@
 namespace offstage {
 namespace {
 
-void addDeviation(std::vector<ReportNumber>& numbers, const std::string& key, const std::string& label,
-                  const TraceDeviation& deviation) {
-  numbers.push_back({key + "_frame", label + ": frame", deviation.frame});
-  numbers.push_back({key + "_time", label + ": time", deviation.time, "s"});
-  numbers.push_back({key + "_body", label + ": body", deviation.body});
-  numbers.push_back({key + "_quantity", label + ": quantity", std::string(name(deviation.quantity))});
-  const std::string of(unit(deviation.quantity));
-  numbers.push_back({key + "_expected", label + ": expected", deviation.expected, of});
-  numbers.push_back({key + "_actual", label + ": actual", deviation.actual, of});
-  numbers.push_back({key + "_error", label + ": error", deviation.error, of});
+constexpr double kWorst = 1e9; ///< stands for an error that is no number
+
+/// For programs: people read the lines.
+template <class Value>
+void add(std::vector<ReportNumber>& numbers, const std::string& key, const Value& value,
+         std::string_view unit = "") {
+  numbers.push_back({key, "", value, std::string(unit)});
 }
 
-void addEvent(std::vector<ReportNumber>& numbers, const TraceEventDifference& difference) {
-  numbers.push_back({"first_event", "first event", std::string(name(difference.event.kind))});
-  numbers.push_back({"first_event_frame", "first event: frame", difference.event.frame});
-  numbers.push_back({"first_event_body", "first event: body", difference.body});
-  numbers.push_back(
-      {"first_event_in", "first event: in", std::string(difference.inExpected ? "expected" : "actual")});
+void addDeviation(std::vector<ReportNumber>& numbers, const std::string& key,
+                  const TraceDeviation& deviation) {
+  const std::string_view of = unit(deviation.quantity);
+  add(numbers, key + "_frame", deviation.frame);
+  add(numbers, key + "_time", deviation.time, "s");
+  add(numbers, key + "_body", deviation.body);
+  add(numbers, key + "_actual_body", deviation.actualBody);
+  add(numbers, key + "_quantity", std::string(name(deviation.quantity)));
+  add(numbers, key + "_expected", deviation.expected, of);
+  add(numbers, key + "_actual", deviation.actual, of);
+  add(numbers, key + "_error", deviation.error, of);
+}
+
+std::string side(bool inExpected) {
+  return inExpected ? "expected" : "actual";
 }
 
 } // namespace
@@ -38,43 +44,46 @@ std::string describe(const TraceTolerance& tolerance) {
                      numberText(tolerance.velocity), numberText(tolerance.time));
 }
 
-ReportCase reportCase(const std::string& name, const TraceComparison& comparison) {
+ReportCase reportCase(const std::string& caseName, const TraceComparison& comparison) {
   ReportCase result;
-  result.name = name;
+  result.name = caseName;
   result.passed = comparison.same;
   result.verdict = comparison.same ? "same" : "differs";
   result.lines = describe(comparison);
 
   auto& numbers = result.numbers;
-  numbers.push_back({"rows_compared", "rows compared", comparison.compared});
-  numbers.push_back({"rows_differing", "rows that differ", comparison.differing});
-  numbers.push_back({"rows_missing", "rows missing", comparison.missing});
-  numbers.push_back({"rows_extra", "rows extra", comparison.extra});
-  numbers.push_back({"bodies_expected", "bodies expected", static_cast<std::int64_t>(comparison.bodies[0])});
-  numbers.push_back({"bodies_actual", "bodies actual", static_cast<std::int64_t>(comparison.bodies[1])});
-  numbers.push_back({"last_frame_expected", "last frame expected", comparison.lastFrame[0]});
-  numbers.push_back({"last_frame_actual", "last frame actual", comparison.lastFrame[1]});
-  numbers.push_back(
-      {"matched_by", "matched by", std::string(comparison.match == TraceMatch::Id ? "id" : "nearest start")});
-  numbers.push_back({"velocity_compared", "velocities compared", comparison.velocityCompared});
-  if (comparison.first) addDeviation(numbers, "first", "first difference", *comparison.first);
-  if (comparison.firstPresence) {
-    numbers.push_back(
-        {"first_unmatched_frame", "first frame with other bodies", comparison.firstPresence->frame});
-    numbers.push_back({"first_unmatched_body", "first body in one only", comparison.firstPresence->body});
-    numbers.push_back({"first_unmatched_in", "first body in one only: in",
-                       std::string(comparison.firstPresence->inExpected ? "expected" : "actual")});
+  add(numbers, "rows_compared", comparison.compared);
+  add(numbers, "rows_differing", comparison.differing);
+  add(numbers, "rows_missing", comparison.missing);
+  add(numbers, "rows_extra", comparison.extra);
+  add(numbers, "bodies_expected", static_cast<std::int64_t>(comparison.bodies[0]));
+  add(numbers, "bodies_actual", static_cast<std::int64_t>(comparison.bodies[1]));
+  add(numbers, "last_frame_expected", comparison.lastFrame[0]);
+  add(numbers, "last_frame_actual", comparison.lastFrame[1]);
+  add(numbers, "matched_by", std::string(comparison.match == TraceMatch::Id ? "id" : "nearest"));
+  add(numbers, "velocity_compared", comparison.velocityCompared);
+  if (comparison.first) addDeviation(numbers, "first", *comparison.first);
+  if (const auto& presence = comparison.firstPresence) {
+    add(numbers, "first_unmatched_frame", presence->frame);
+    add(numbers, "first_unmatched_body", presence->body);
+    add(numbers, "first_unmatched_in", side(presence->inExpected));
   }
-  if (comparison.firstEvent) addEvent(numbers, *comparison.firstEvent);
+  if (const auto& event = comparison.firstEvent) {
+    add(numbers, "first_event", std::string(name(event->event.kind)));
+    add(numbers, "first_event_frame", event->event.frame);
+    add(numbers, "first_event_time", event->event.time, "s");
+    add(numbers, "first_event_body", event->body);
+    add(numbers, "first_event_in", side(event->inExpected));
+    if (event->otherFrame) add(numbers, "first_event_other_frame", *event->otherFrame);
+  }
   for (const auto& worst : comparison.worst) {
-    if (!worst) continue;
-    const std::string quantity(offstage::name(worst->quantity));
-    addDeviation(numbers, "worst_" + quantity, "worst " + quantity, *worst);
+    if (worst) addDeviation(numbers, "worst_" + std::string(name(worst->quantity)), *worst);
   }
 
   if (!comparison.same) {
     result.severity = 1.0;
-    for (const double error : comparison.positionError) result.severity = std::max(result.severity, error);
+    for (const double error : comparison.positionError)
+      result.severity = std::max(result.severity, std::min(error, kWorst));
   }
   result.curves.push_back(
       {"position_error", "position error", "px", comparison.times, comparison.positionError});

@@ -140,7 +140,9 @@ std::string shellQuoted(const std::string& text) {
 }
 
 std::string acceptCommand(const GoldenFolders& folders, const std::string& name) {
-  return fmt::format("offstage golden accept {} {}", shellQuoted(folders.goldens.string()),
+  const std::string out =
+      folders.out == kGoldenOut ? "" : fmt::format("--out {} ", shellQuoted(folders.out.string()));
+  return fmt::format("offstage golden accept {} {}{}", shellQuoted(folders.goldens.string()), out,
                      shellQuoted(name));
 }
 

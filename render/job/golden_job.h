@@ -8,11 +8,14 @@
 
 namespace offstage {
 
+/// Where a verification leaves what is to be looked at, unless told otherwise.
+inline constexpr const char* kGoldenOut = "out/golden";
+
 /// Where golden frames and their scenes are.
 struct GoldenFolders {
   std::filesystem::path goldens; ///< pictures, states, goldens.lock, tolerance.toml
   std::filesystem::path scenes;  ///< the *.toml of this folder with a [golden]; often the same folder
-  std::filesystem::path out;     ///< what a verification leaves
+  std::filesystem::path out = kGoldenOut; ///< what a verification leaves
 };
 
 /// Draws every golden moment of every scene and holds it to its golden. What is not the same stays in the

@@ -17,7 +17,7 @@ namespace {
 struct Arguments {
   std::filesystem::path goldens;
   std::filesystem::path scenes;
-  std::filesystem::path out = "out/golden";
+  std::filesystem::path out = kGoldenOut;
   std::filesystem::path junit;
   std::vector<std::string> names;
   bool json = false;

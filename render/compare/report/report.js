@@ -387,7 +387,7 @@ async function select(index) {
   });
   element("name").textContent = one.name;
   element("lines").replaceChildren(...one.lines.map(line => make("li", { textContent: line })));
-  element("numbers").replaceChildren(...one.numbers.map(number =>
+  element("numbers").replaceChildren(...one.numbers.filter(number => number.label).map(number =>
     make("tr", {}, make("th", { scope: "row", textContent: number.label }), make("td", { textContent: text(number) }))));
   showWorst(one);
   element("case-curves").replaceChildren(...one.curves.map(curve => {
