@@ -150,23 +150,27 @@ const Tolerance* toleranceOf(const Scene& scene) {
   return scene.golden->hasTolerance ? &scene.golden->tolerance : nullptr;
 }
 
-/// Counts the verdicts.
+/// Says how many goldens have which verdict; of a single one, its name and verdict.
 void summarize(Report& report) {
-  std::map<std::string, std::int64_t> counts;
+  std::map<std::string, std::size_t> counts;
   for (const ReportCase& one : report.cases) {
     ++counts[one.verdict];
     report.passed = report.passed && one.passed;
   }
-  for (const GoldenVerdict verdict :
-       {GoldenVerdict::Same, GoldenVerdict::PixelsChanged, GoldenVerdict::PhysicsChanged,
-        GoldenVerdict::SizeChanged, GoldenVerdict::Missing, GoldenVerdict::Obsolete}) {
-    const std::string words(name(verdict));
-    std::string key = words;
-    std::erase(key, ',');
-    std::replace(key.begin(), key.end(), ' ', '_');
-    report.numbers.push_back({key, words, counts[words]});
+  const std::size_t same = counts[std::string(name(GoldenVerdict::Same))];
+  report.verdict = report.passed ? "same"
+                                 : fmt::format("{} of {} goldens are not the same",
+                                               report.cases.size() - same, report.cases.size());
+  if (report.cases.size() == 1) {
+    report.lines.push_back(report.cases.front().name + ": " + report.cases.front().verdict);
+    return;
   }
-  report.verdict = report.passed ? "same" : "not all goldens are the same";
+  for (const GoldenVerdict verdict :
+       {GoldenVerdict::PhysicsChanged, GoldenVerdict::SizeChanged, GoldenVerdict::PixelsChanged,
+        GoldenVerdict::Missing, GoldenVerdict::Obsolete, GoldenVerdict::Same}) {
+    const std::string words(name(verdict));
+    if (counts[words] > 0) report.lines.push_back(fmt::format("{} {}", counts[words], words));
+  }
 }
 
 } // namespace
