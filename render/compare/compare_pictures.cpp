@@ -2,6 +2,7 @@
 #include "render/compare/compare_images.h"
 #include "render/compare/frame_rows.h"
 #include "render/compare/parallel.h"
+#include "render/compare/shell_word.h"
 
 #include <chrono>
 
@@ -21,6 +22,8 @@ CompareResult comparePictures(const std::filesystem::path& expected, const std::
   CompareResult result;
   ReportCase one = reportCase(actual.filename().string(), comparison);
   one.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!one.passed)
+    one.acceptCommand = fmt::format("cp {} {}", shellWord(actual.string()), shellWord(expected.string()));
   if (options.pictures || options.strip) {
     const Frame expectedFrame = toFrame(*expectedRows);
     const Frame actualFrame = toFrame(*actualRows);

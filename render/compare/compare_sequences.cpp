@@ -3,6 +3,7 @@
 #include "render/compare/frame_rows.h"
 #include "render/compare/frame_stream.h"
 #include "render/compare/parallel.h"
+#include "render/compare/shell_word.h"
 #include "render/compare/worst_frames.h"
 #include "render/output/file_error.h"
 #include "src/sim/error.h"
@@ -140,6 +141,9 @@ public:
     }
     if (const auto time = pair.time()) one.numbers.insert(one.numbers.begin(), {"time", "time", *time, "s"});
     one.numbers.insert(one.numbers.begin(), {"frame", "frame", pair.number});
+    if (!one.passed && !pair.actual.file.empty() && !pair.expected.file.empty())
+      one.acceptCommand = fmt::format("cp {} {}", shellWord(pair.actual.file.string()),
+                                      shellWord(pair.expected.file.string()));
     addCurves(pair);
     if (!one.passed) addFailed(pair, one);
     keepPictures(pair, one, worker);

@@ -27,7 +27,7 @@ function make(tag, properties, ...children) {
 
 function text(number) {
   const value = number.value;
-  const plain = v => v === null ? "infinite" : typeof v === "number" && !Number.isInteger(v) ? v.toPrecision(6) : String(v);
+  const plain = v => v === null ? "infinite" : typeof v === "number" && !Number.isInteger(v) ? String(Number(v.toPrecision(6))) : String(v);
   return (Array.isArray(value) ? value.map(plain).join(", ") : plain(value)) + (number.unit ? " " + number.unit : "");
 }
 
@@ -109,6 +109,7 @@ function draw() {
   const [width, height] = wholeSize();
   canvases.forEach((canvas, index) => {
     const ratio = window.devicePixelRatio || 1;
+    canvas.style.aspectRatio = `${width} / ${height}`; // a wide picture leaves no room below it
     const box = canvas.getBoundingClientRect();
     canvas.width = Math.max(1, Math.round(box.width * ratio));
     canvas.height = Math.max(1, Math.round(box.height * ratio));
@@ -233,6 +234,7 @@ function fit() {
 function lookAt(x, y) {
   Object.assign(state.view, { fit: false, scale: 16, x: x + 0.5, y: y + 0.5 });
   draw();
+  element("viewer").scrollIntoView({ block: "nearest" });
   showPixel(x, y);
 }
 
