@@ -2,6 +2,7 @@
 
 #include "render/compare/golden_output.h"
 #include "render/compare/golden_store.h"
+#include "render/compare/shell_word.h"
 #include "render/job/interrupt.h"
 #include "render/job/scene_source.h"
 #include "render/output/png.h"
@@ -125,25 +126,11 @@ private:
   GoldenMachine machine_;
 };
 
-std::string shellQuoted(const std::string& text) {
-  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789@._-/+";
-  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
-  std::string quoted = "'";
-  for (const char letter : text) {
-    if (letter == '\'') {
-      quoted += "'\\''";
-    } else {
-      quoted += letter;
-    }
-  }
-  return quoted + "'";
-}
-
 std::string acceptCommand(const GoldenFolders& folders, const std::string& name) {
   const std::string out =
-      folders.out == kGoldenOut ? "" : fmt::format("--out {} ", shellQuoted(folders.out.string()));
-  return fmt::format("offstage golden accept {} {}{}", shellQuoted(folders.goldens.string()), out,
-                     shellQuoted(name));
+      folders.out == kGoldenOut ? "" : fmt::format("--out {} ", shellWord(folders.out.string()));
+  return fmt::format("offstage golden accept {} {}{}", shellWord(folders.goldens.string()), out,
+                     shellWord(name));
 }
 
 const Tolerance* toleranceOf(const Scene& scene) {
