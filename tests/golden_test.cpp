@@ -259,6 +259,25 @@ TEST(GoldenCommand, RecordLeavesAGoldenThatDiffers) {
   EXPECT_EQ(readFile(folder.dir() / "fall.states.csv"), states);
 }
 
+TEST(GoldenCommand, APictureWithoutALineIsComparedAndNeverReplacedByRecord) {
+  const GoldenFolder folder;
+  folder.writeScene("fall", "red", 40, "at = [0]");
+  folder.writeScene("other", "red", 40, "at = [0]");
+  ASSERT_EQ(folder.golden({"record", "."}).status, 0);
+  folder.writeScene("fall", "blue", 40, "at = [0]");
+  std::filesystem::remove(folder.dir() / "goldens.lock");
+  const std::string red = readFile(folder.dir() / "fall@0s.png");
+  const ProcessResult verified = folder.golden({"verify", "."});
+  EXPECT_EQ(verified.status, 1);
+  EXPECT_THAT(verified.out,
+              AllOf(HasSubstr("fall@0s: golden missing\n"), HasSubstr("132 px differ"),
+                    HasSubstr("other@0s: golden missing\n"), HasSubstr("goldens.lock has no line for it")));
+  const ProcessResult recorded = folder.golden({"record", "."});
+  EXPECT_EQ(recorded.status, 1);
+  EXPECT_THAT(recorded.out, HasSubstr("1 recorded, 0 unchanged, 1 differ\n"));
+  EXPECT_EQ(readFile(folder.dir() / "fall@0s.png"), red);
+}
+
 TEST(GoldenCommand, AcceptTakesTheChosenOnesAsTheyWereSeen) {
   const GoldenFolder folder;
   folder.writeScene("fall", "red", 40);

@@ -129,11 +129,11 @@ GoldenRecorder::GoldenRecorder(std::vector<std::string> groups, std::vector<std:
 void GoldenRecorder::add(std::int64_t frame, double time, std::uint64_t stateHash,
                          std::span<const Body> bodies) {
   hashes_.push_back(shortened(stateHash));
-  const Kept kept{time, {bodies.begin(), bodies.end()}};
-  if (std::binary_search(goldenFrames_.begin(), goldenFrames_.end(), frame)) goldens_.emplace(frame, kept);
+  const bool golden = std::binary_search(goldenFrames_.begin(), goldenFrames_.end(), frame);
+  if (golden) goldens_.emplace(frame, Kept{time, {bodies.begin(), bodies.end()}});
   if (frame % stride_ != 0) return;
   rows_ += bodies.size();
-  kept_.emplace(frame, kept);
+  kept_.emplace(frame, Kept{time, {bodies.begin(), bodies.end()}});
   while (rows_ > kMostRows && kept_.size() > 1) {
     stride_ *= 2;
     std::erase_if(kept_, [this](const auto& one) {

@@ -80,6 +80,14 @@ void tellPhysics(const GoldenPicture& picture, const std::optional<StatesDiffere
   report.numbers.push_back({"state_error", "", first.error, std::string(unit(first.quantity))});
 }
 
+/// `entry`: null without a line in the lock, and then nothing is known of the physics.
+GoldenVerdict judge(const GoldenPicture& picture, const Comparison& comparison, const GoldenEntry* entry) {
+  if (entry == nullptr) return GoldenVerdict::Missing;
+  if (comparison.kind == Comparison::Kind::SizeDiffers) return GoldenVerdict::SizeChanged;
+  if (entry->state != picture.state) return GoldenVerdict::PhysicsChanged;
+  return comparison.same() ? GoldenVerdict::Same : GoldenVerdict::PixelsChanged;
+}
+
 /// Where another machine may be the reason, both are told.
 void tellMachines(const GoldenMachine& recorded, const GoldenMachine& now, ReportCase& report) {
   const auto text = [](const GoldenMachine& machine) {
@@ -144,15 +152,11 @@ GoldenFinding GoldenStore::verify(const GoldenPicture& picture, const Tolerance*
   GoldenFinding finding;
   const GoldenEntry* entry = lock_.find(picture.name);
   const std::filesystem::path file = pictureFile(picture.name);
-  std::error_code error;
-  const bool drawn = std::filesystem::exists(file, error);
   ReportPictures pictures;
-  if (!drawn || entry == nullptr) {
+  if (!hasPicture(picture.name)) {
     finding.verdict = GoldenVerdict::Missing;
     finding.report.name = picture.name;
-    finding.report.lines.push_back(drawn
-                                       ? fmt::format("{} has no line for it", printable(lockFile().string()))
-                                       : fmt::format("there is no {}", printable(file.string())));
+    finding.report.lines.push_back(fmt::format("there is no {}", printable(file.string())));
     pictures.actual = reportPicture(picture.frame);
   } else {
     const Frame expected = loadFrame(file);
@@ -160,15 +164,15 @@ GoldenFinding GoldenStore::verify(const GoldenPicture& picture, const Tolerance*
     Comparer comparer(inForce, Metrics::Fast, 1);
     const Comparison comparison = comparer.compare(expected, picture.frame);
     finding.report = reportCase(picture.name, comparison);
-    if (comparison.kind == Comparison::Kind::SizeDiffers) {
-      finding.verdict = GoldenVerdict::SizeChanged;
+    finding.verdict = judge(picture, comparison, entry);
+    finding.pictureHolds = comparison.same();
+    if (entry == nullptr) {
+      finding.report.lines.push_back(fmt::format("{} has no line for it", printable(lockFile().string())));
     } else if (entry->state != picture.state) {
-      finding.verdict = GoldenVerdict::PhysicsChanged;
-    } else if (!comparison.same()) {
-      finding.verdict = GoldenVerdict::PixelsChanged;
+      tellPhysics(picture, run, bodyNames, finding.report);
+    } else if (finding.verdict == GoldenVerdict::PixelsChanged) {
       tellMachines(entry->machine, picture.machine, finding.report);
     }
-    if (entry->state != picture.state) tellPhysics(picture, run, bodyNames, finding.report);
     if (finding.verdict != GoldenVerdict::Same) {
       const Frame difference = comparer.difference(expected, picture.frame);
       finding.strip = makeStrip(expected, difference, picture.frame);
@@ -205,13 +209,17 @@ GoldenFinding GoldenStore::findObsolete(const std::string& golden) const {
   finding.report.passed = false;
   finding.report.severity = severityOf(finding.verdict);
   finding.report.lines.push_back("no scene has this moment in its [golden]");
-  std::error_code error;
-  if (std::filesystem::exists(pictureFile(golden), error)) {
+  if (hasPicture(golden)) {
     ReportPictures pictures;
     pictures.expected = reportPicture(loadFrame(pictureFile(golden)));
     finding.report.pictures.push_back(std::move(pictures));
   }
   return finding;
+}
+
+bool GoldenStore::hasPicture(const std::string& name) const {
+  std::error_code error;
+  return std::filesystem::exists(pictureFile(name), error);
 }
 
 void GoldenStore::put(const std::string& name, const std::vector<std::uint8_t>& png,

@@ -44,6 +44,7 @@ std::string_view name(GoldenVerdict verdict);
 /// A verdict, with what to read of it.
 struct GoldenFinding {
   GoldenVerdict verdict = GoldenVerdict::Same;
+  bool pictureHolds = false;  ///< there is a picture, and it is the same within the tolerance
   ReportCase report;          ///< pictures included when it is not the same
   std::optional<Frame> strip; ///< expected | difference | actual, where both are there and differ
 };
@@ -78,6 +79,8 @@ public:
   [[nodiscard]] std::vector<std::string> obsolete(const std::set<std::string>& wanted) const;
   GoldenFinding findObsolete(const std::string& name) const;
 
+  /// Whether a golden has a picture.
+  [[nodiscard]] bool hasPicture(const std::string& name) const;
   /// Puts a picture, a PNG's bytes, and its line in the golden's place. saveLock() makes the line last.
   void put(const std::string& name, const std::vector<std::uint8_t>& png, const GoldenEntry& entry);
   void putStates(const std::string& sceneName, const std::string& text);

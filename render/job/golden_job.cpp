@@ -214,8 +214,14 @@ GoldenRecording recordGoldens(const GoldenFolders& folders) {
       if (finding.verdict == GoldenVerdict::Same) {
         recording.unchanged.push_back(picture.name);
         ++kept;
-      } else if (finding.verdict == GoldenVerdict::Missing) {
-        store.put(picture.name, encodePng(picture.frame, picture.alpha), entryOf(picture));
+      } else if (finding.verdict == GoldenVerdict::Missing &&
+                 (finding.pictureHolds || !store.hasPicture(picture.name))) {
+        // A picture that only lacked its line stays as it is.
+        if (finding.pictureHolds) {
+          store.lock().set(picture.name, entryOf(picture));
+        } else {
+          store.put(picture.name, encodePng(picture.frame, picture.alpha), entryOf(picture));
+        }
         recording.recorded.push_back(picture.name);
         ++written;
       } else {
