@@ -68,7 +68,9 @@ await page.keyboard.press("2");
 const before = await drawn(page);
 await page.$eval("#mix", slider => { slider.value = 90; slider.dispatchEvent(new Event("input")); });
 expect("the slider moves", before !== await drawn(page), true);
-const box = await (await page.$("#stage canvas")).boundingBox();
+const canvas = await page.$("#stage canvas");
+await canvas.scrollIntoViewIfNeeded();
+const box = await canvas.boundingBox();
 await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
 await page.mouse.down();
 await page.mouse.move(box.x + box.width / 4, box.y + box.height / 2);
@@ -99,7 +101,9 @@ await page.selectOption("#sort", "severity");
 
 // The curve leads to its frame.
 if (report.curves.length > 0) {
-  const curve = await (await page.$("#curve")).boundingBox();
+  const svg = await page.$("#curve");
+  await svg.scrollIntoViewIfNeeded();
+  const curve = await svg.boundingBox();
   await page.mouse.click(curve.x + curve.width - 12, curve.y + curve.height / 2);
   expect("a click on the curve's end", await current(page), report.cases[report.cases.length - 1].name);
   await page.click("#list li button");
