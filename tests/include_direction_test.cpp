@@ -22,9 +22,12 @@ const std::vector<Layer>& layers() {
       {"render/draw", {"src/sim", "src/scene"}},
       {"render/raster", {"src/sim", "src/scene", "render/draw"}},
       {"render/output", {"src/sim", "src/scene", "render/draw", "render/raster"}},
-      {"render/job", {"src/sim", "src/scene", "render/draw", "render/raster", "render/output"}},
+      {"render/compare", {"src/sim", "src/scene", "render/draw", "render/raster", "render/output"}},
+      {"render/job",
+       {"src/sim", "src/scene", "render/draw", "render/raster", "render/output", "render/compare"}},
       {"render/stage",
-       {"src/sim", "src/scene", "render/draw", "render/raster", "render/output", "render/job"}},
+       {"src/sim", "src/scene", "render/draw", "render/raster", "render/output", "render/compare",
+        "render/job"}},
   };
   return all;
 }

@@ -29,6 +29,17 @@ TEST(Package, AnotherProjectFindsBuildsAndRunsTheInstalledLibrary) {
       runProcess({prefix + "/bin/offstage", "render", scene("exercise1_bounce"), "--hash", ofScene});
   ASSERT_EQ(program.status, 0) << program.err;
   EXPECT_EQ(readFile(ofStudent), readFile(ofScene));
+
+  // Its test records its golden, which does not count as passing, and then holds to it.
+  std::filesystem::create_directory(dir / "goldens");
+  ProcessOptions inDir;
+  inDir.directory = dir.path();
+  EXPECT_EQ(runProcess({build + "/student_test"}, inDir).status, 1);
+  inDir.environment = {{"OFFSTAGE_UPDATE_GOLDENS", "1"}};
+  EXPECT_EQ(runProcess({build + "/student_test"}, inDir).status, 1);
+  inDir.environment.clear();
+  const ProcessResult held = runProcess({build + "/student_test"}, inDir);
+  EXPECT_EQ(held.status, 0) << held.out << held.err;
 }
 
 } // namespace

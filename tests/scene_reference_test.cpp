@@ -110,6 +110,9 @@ Entries baseOf(const std::string& table) {
       {"force.attract", {{"type", "\"attract\""}, {"to", "[1, 2]"}, {"strength", "3"}}},
       {"force.wind", {{"type", "\"wind\""}, {"velocity", "[1, 2]"}, {"coefficient", "3"}}},
       {"force.expression", {{"type", "\"expression\""}, {"fx", "\"1\""}, {"fy", "\"2\""}}},
+      {"replay", {{"trace", "\"student.csv\""}}},
+      {"replay.look", {{"id", "2"}}},
+      {"golden", {{"at", "[0.5]"}}},
   };
   const auto found = bases.find(table);
   return found == bases.end() ? Entries{} : found->second;
@@ -142,6 +145,8 @@ Entries with(const std::string& table, const std::string& key, const std::string
   if (table == "spawn" && key == "center") drop({"x", "y"});
   if (table == "launch" && key == "frame") drop({"at"});
   if (table == "fill" && key == "cycle") drop({"image"});
+  if (table == "replay.look" && key == "group") drop({"id"});
+  if (table == "golden" && key == "every") drop({"at"});
   if (table == "random") drop({"uniform"});
   if (table == "stroke" && (key == "anchor" || key == "proportional")) set(entries, "image", "\"image.png\"");
   if ((table == "fill" || table == "stroke") && key == "proportional") set(entries, "anchor", "[0, 0, 1, 1]");
@@ -157,6 +162,8 @@ std::string sceneWith(const std::string& table, const Entries& entries) {
     lines += fmt::format("{} = {}\n", key, value);
     inlined += fmt::format("{}{} = {}", inlined.empty() ? "" : ", ", key, value);
   }
+  if (table == "replay") return "[replay]\n" + lines;
+  if (table == "replay.look") return "[replay]\ntrace = \"student.csv\"\n[[replay.look]]\n" + lines;
   const std::string body = "[[body]]\nname = \"b\"\ncenter = [1, 2]\nradius = 3\n";
   const std::string spawn = "[[spawn]]\nx = 1\ny = 2\nradius = 3\n";
   if (table.empty()) return lines;
@@ -184,6 +191,9 @@ std::string valueOf(const DocumentedKey& key) {
       {"[low, high]", "[1, 2]"},
       {"[mean, deviation]", "[1, 2]"},
       {"number or list", "[0.5, 1]"},
+      {"list of numbers", "[0.5, 1]"},
+      {"list of [x, y, width, height]", "[[1, 2, 3, 4]]"},
+      {"file or list", "\"image.png\""},
       {"integer or list", "[5, 6]"},
       {"[x, y] or name", "\"b\""},
       {"[group, group]", "[\"bodies\", \"bodies\"]"},
@@ -200,6 +210,10 @@ std::string valueOf(const DocumentedKey& key) {
   if (key.type == "choice") return '"' + words.at(key.key) + '"';
   if (key.key == "name") return "\"another\"";
   if (key.key == "recorded") return "\"log.dt\"";
+  if (key.key == "trace") return "\"student.csv\"";
+  if (key.key == "replay") return "{ trace = \"student.csv\" }";
+  if (key.key == "golden") return "{ at = [1] }";
+  if (key.key == "look") return "[{ id = 2, fill = \"red\" }]";
   if (key.table == "force" && key.key == "group") return "\"bodies\"";
   if (key.type == "file") return "\"image.png\"";
   if (key.type == "table" && key.key == "stroke") return "{ width = 2 }";
@@ -223,6 +237,8 @@ protected:
   SceneReference() {
     folder_.write("image.png", "only looked for, not read");
     folder_.write("log.dt", "16666667\n");
+    folder_.write("student.csv",
+                  "frame,time,id,x,y,radius,group\n0,0,0,1,2,3,a\n0,0,2,1,2,3,b\n1,1,2,1,2,3,b\n");
   }
 
   [[nodiscard]] std::vector<std::string> errorsOf(const std::string& text) const {

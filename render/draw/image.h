@@ -2,6 +2,7 @@
 
 #include "src/scene/look.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -16,7 +17,14 @@ struct Image {
   std::vector<std::uint8_t> rgba; ///< width*height*4
 };
 
-/// Decodes a PNG, JPEG or BMP file (stb_image). `where` locates the key that named the file and may be empty.
+/// Larger files are not read: no picture of the largest size needs more, compressed or not.
+constexpr std::size_t kLargestImageFile = 4UL * 16384 * 16384 + (1UL << 20);
+
+/// Decodes a PNG (PngPicture: strictly), JPEG or BMP (stb_image). Throws std::runtime_error that says what is
+/// wrong, without a file's name.
+Image decodeImage(std::vector<std::uint8_t> bytes);
+
+/// Decodes a PNG, JPEG or BMP file. `where` locates the key that named the file and may be empty.
 /// Throws SceneError (located) or Error(BadInput) when it is missing, not an image, damaged, empty, or larger
 /// than 16384 px a side (checked before memory is taken).
 Image loadImage(const std::filesystem::path& file, const SourceLocation& where = {});

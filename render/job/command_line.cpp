@@ -1,5 +1,6 @@
 #include "render/job/command_line.h"
 
+#include "render/job/number_option.h"
 #include "src/scene/diagnostic.h"
 
 #include <charconv>
@@ -12,28 +13,6 @@
 
 namespace offstage {
 namespace {
-
-/// CLI11's own conversion takes "1e999", "nan" and trailing text in some versions; numbers here are finite
-/// and whole words.
-template <class T>
-void addNumber(CLI::App& app, const char* name, std::optional<T>& target, const char* type,
-               const char* help) {
-  app.add_option_function<std::string>(
-         name,
-         [&target, name](const std::string& text) {
-           T value{};
-           const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-           bool good = error == std::errc{} && end == text.data() + text.size();
-           if constexpr (std::is_floating_point_v<T>) good = good && std::isfinite(value);
-           if (!good)
-             throw Error(ExitCode::BadInput,
-                         fmt::format("{} '{}' is not {}", name, text,
-                                     std::is_integral_v<T> ? "a whole number" : "a finite number"));
-           target = value;
-         },
-         help)
-      ->type_name(type);
-}
 
 ProgressMode parseProgress(const std::string& text) {
   if (text == "auto") return ProgressMode::Auto;

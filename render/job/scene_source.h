@@ -5,9 +5,12 @@
 #include "src/scene/scene.h"
 #include "src/sim/world.h"
 
+#include <span>
+#include <variant>
+
 namespace offstage {
 
-/// A scene file's world as something to render.
+/// A scene file's world, or the trace that it replays, as something to render.
 class SceneSource : public Source {
 public:
   /// Decodes the scene's images. Throws SceneError or Error for what parsing could not know.
@@ -15,18 +18,20 @@ public:
 
   [[nodiscard]] const Clock& clock() const override { return clock_; }
   [[nodiscard]] const std::string& title() const override { return title_; }
-  [[nodiscard]] std::int64_t frame() const override { return world_.frame(); }
-  void step() override { world_.step(clock_.tick(world_.frame() + 1)); }
+  [[nodiscard]] std::int64_t frame() const override;
+  void step() override;
   void draw(Picture& picture) const override;
-  [[nodiscard]] std::uint64_t stateHash() const override { return world_.stateHash(); }
+  [[nodiscard]] std::uint64_t stateHash() const override;
 
-  [[nodiscard]] const World& world() const { return world_; }
+  [[nodiscard]] double time() const; ///< s: of the present frame
+  /// The bodies of the present frame in the order in which they are drawn. Valid until the next step.
+  [[nodiscard]] std::span<const Body> bodies() const;
   [[nodiscard]] const Painter& painter() const { return painter_; }
 
 private:
   Clock clock_;
   std::string title_;
-  World world_;
+  std::variant<World, ReplayMotion> motion_; ///< simulated or replayed
   Painter painter_;
 };
 

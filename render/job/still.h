@@ -19,4 +19,7 @@ constexpr int kMaxStrobe = 1000;
 /// frame 0.
 Still drawStill(SceneSource& source, double at, int strobe = 1);
 
+/// The frame on show at `at` seconds of any source, and leaves it there. Throws as drawStill().
+Frame drawFrame(Source& source, double at);
+
 } // namespace offstage

@@ -1,6 +1,6 @@
 #include "render/job/scene_source.h"
+#include "render/output/json_text.h"
 #include "src/app/commands.h"
-#include "src/app/json_text.h"
 #include "src/scene/scene.h"
 
 #include <memory>

@@ -15,6 +15,8 @@ using Action = std::function<int()>;
 void addRender(CLI::App& app, Action& action);
 void addStill(CLI::App& app, Action& action);
 void addTrace(CLI::App& app, Action& action);
+void addDiff(CLI::App& app, Action& action);
+void addGolden(CLI::App& app, Action& action);
 void addCheck(CLI::App& app, Action& action);
 void addDoctor(CLI::App& app, Action& action);
 

@@ -46,6 +46,8 @@ int main(int argc, char** argv) {
   offstage::addRender(app, action);
   offstage::addStill(app, action);
   offstage::addTrace(app, action);
+  offstage::addDiff(app, action);
+  offstage::addGolden(app, action);
   offstage::addCheck(app, action);
   offstage::addDoctor(app, action);
   return offstage::runCommandLine(app, argc, argv, [&] { return action(); });

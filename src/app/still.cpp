@@ -51,7 +51,7 @@ void addStill(CLI::App& app, Action& action) {
       file.write(png.data(), png.size());
       file.commit();
       fmt::print("{}: {}x{}, frame {} at {} s\n", arguments->out.string(), still.frame.width,
-                 still.frame.height, source.frame(), source.world().time());
+                 still.frame.height, source.frame(), source.time());
       return static_cast<int>(ExitCode::Done);
     };
   });

@@ -51,6 +51,9 @@ void addTrace(CLI::App& app, Action& action) {
         throw Error(ExitCode::BadInput, "the trace and its events cannot go to the same place");
       const Scene scene = loadScene(arguments->scene, arguments->options.sceneOverrides());
 
+      if (scene.replay)
+        throw Error(ExitCode::BadInput, fmt::format("{} simulates nothing: it replays the trace {}",
+                                                    arguments->scene.string(), scene.replay->trace.file));
       TextOutput states(arguments->out);
       std::optional<TextOutput> events;
       if (withEvents) events.emplace(arguments->events);

@@ -68,7 +68,7 @@ std::vector<std::optional<Paint>> readFills(SceneBuilder& builder, const TableRe
   }
   const TableReader keys(*fill, {"fill"}, reader.label(), builder.errors, "fill.");
   if (keys.has("cycle") && !mayCycle) {
-    keys.reject("cycle", "belongs to [[spawn]], which makes many bodies");
+    keys.reject("cycle", "belongs where there are many bodies, in [[spawn]], [replay] and a look of a group");
   } else if (keys.has("cycle")) {
     const std::vector<Paint> paints = readCycle(keys);
     if (!paints.empty()) return {paints.begin(), paints.end()};

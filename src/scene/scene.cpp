@@ -2,6 +2,7 @@
 
 #include "src/scene/limits.h"
 #include "src/scene/parse_clock.h"
+#include "src/scene/parse_replay.h"
 #include "src/scene/quote.h"
 #include "src/scene/scene_builder.h"
 #include "src/scene/text_file.h"
@@ -86,6 +87,8 @@ void parseTables(SceneBuilder& builder, const TomlValue& root, const SceneOverri
   checkScale(builder, top, overrides.scale);
   scene.world.pane = Vec2(scene.size[0], scene.size[1]);
   parseClock(builder, singleTable(top, "clock"), top, overrides);
+  if (const TomlValue* replay = singleTable(top, "replay")) parseReplay(builder, *replay, top, overrides);
+  parseSingle(builder, top, "golden", parseGolden);
   // The view and the world's integrator come before everything that they hold for.
   parseSingle(builder, top, "view", parseView);
   parseSingle(builder, top, "world", parseWorld);

@@ -1,12 +1,15 @@
 #pragma once
 
+#include "src/scene/golden.h"
 #include "src/scene/look.h"
+#include "src/scene/replay.h"
 #include "src/sim/clock.h"
 #include "src/sim/world_setup.h"
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,6 +28,8 @@ struct Scene {
   WorldSetup world;
   std::vector<Look> looks;            ///< Body::look is an index into these
   std::vector<std::string> bodyNames; ///< by id of WorldSetup::bodies; empty where unnamed
+  std::shared_ptr<const Replay> replay; ///< null: the world is simulated; else it is empty
+  std::optional<GoldenMoments> golden;  ///< what `offstage golden` keeps of it
 };
 
 /// What a command line replaces in a scene, as if it were written there.

@@ -19,6 +19,8 @@ constexpr SceneKey kKeys[] = {
     {"", "launch", "tables", "", "none"},
     {"", "collide", "tables", "", "none"},
     {"", "force", "tables", "", "none"},
+    {"", "replay", "table", "", "none"},
+    {"", "golden", "table", "", "none"},
 
     {"frame", "size", "[width, height]", "px", "[640, 480]"},
     {"frame", "background", "colour", "", "\"white\""},
@@ -146,6 +148,33 @@ constexpr SceneKey kKeys[] = {
 
     {"force.expression", "fx", "expression", "mass·px/s²", "\"0\""},
     {"force.expression", "fy", "expression", "mass·px/s²", "\"0\""},
+
+    {"replay", "trace", "file", "", "required"},
+    {"replay", "start", "number", "s", "the first row's time"},
+    {"replay", "fill", "paint", "", "\"black\""},
+    {"replay", "stroke", "table", "", "none"},
+    {"replay", "opacity", "number", "", "1"},
+    {"replay", "look", "tables", "", "none"},
+
+    {"replay.look", "id", "integer", "", "required"},
+    {"replay.look", "group", "string", "", "required"},
+    {"replay.look", "fill", "paint", "", "\"black\""},
+    {"replay.look", "stroke", "table", "", "none"},
+    {"replay.look", "opacity", "number", "", "1"},
+
+    {"golden", "at", "list of numbers", "s", "required"},
+    {"golden", "every", "number", "s", "required"},
+    {"golden", "max_channel", "number", "1/255", "0"},
+    {"golden", "max_pixels", "integer", "px", "none"},
+    {"golden", "max_ratio", "number", "", "none"},
+    {"golden", "max_cluster", "integer", "px", "none"},
+    {"golden", "flip_max", "number", "", "none"},
+    {"golden", "ssim_min", "number", "", "none"},
+    {"golden", "max_forgiven", "integer", "px", "none"},
+    {"golden", "ignore_antialiasing", "boolean", "", "false"},
+    {"golden", "strict_alpha", "boolean", "", "false"},
+    {"golden", "ignore", "list of [x, y, width, height]", "px", "none"},
+    {"golden", "mask", "file or list", "", "none"},
 };
 // clang-format on
 

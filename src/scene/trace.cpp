@@ -74,6 +74,10 @@ TraceWriter::TraceWriter(std::ostream& out, TraceFormat format, std::vector<std:
 }
 
 void TraceWriter::write(const World& world) {
+  write(world.frame(), world.time(), world.bodies());
+}
+
+void TraceWriter::write(std::int64_t frame, double time, std::span<const Body> bodies) {
   const bool json = format_ == TraceFormat::JsonLines;
   const auto column = [this, json](std::string_view jsonKey, double value) {
     if (json) {
@@ -84,12 +88,12 @@ void TraceWriter::write(const World& world) {
       appendNumber(buffer_, value);
     }
   };
-  for (const Body& body : world.bodies()) {
+  for (const Body& body : bodies) {
     buffer_ += json ? "{\"frame\":" : "";
-    appendNumber(buffer_, world.frame());
+    appendNumber(buffer_, frame);
     buffer_ += json ? ",\"id\":" : ",";
     appendNumber(buffer_, body.id);
-    column(",\"time\":", world.time());
+    column(",\"time\":", time);
     column(",\"x\":", body.position.x());
     column(",\"y\":", body.position.y());
     column(",\"vx\":", body.velocity.x());

@@ -3,6 +3,7 @@
 #include "src/sim/world.h"
 
 #include <iosfwd>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ public:
   /// `out` must outlive the writer. Writes the header of a CSV at once.
   TraceWriter(std::ostream& out, TraceFormat format, std::vector<std::string> groups);
   void write(const World& world); ///< the world's present frame
+  /// One frame of any motion; `time` in s.
+  void write(std::int64_t frame, double time, std::span<const Body> bodies);
 
 private:
   std::ostream& out_;

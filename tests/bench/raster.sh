@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Workload R, frames to nowhere, beside cairo: medians of five runs, taken in turns. Called by ./dev bench raster.
 set -euo pipefail
-bin=${1:?the folder with the bench programs}
-offstage=${2:?the program}
+cd "$(dirname "$0")/../.."
+bin=build/release/tests/bench
+offstage=build/release/offstage
 runs=5
 
 median() { sort -g | sed -n "$(((runs + 1) / 2))p"; }
@@ -31,7 +32,7 @@ read -r _ short < <("$bin/raster_offstage" 10 300)
 read -r _ long < <("$bin/raster_offstage" 10 30000)
 echo "peak memory: $short KiB after 300 frames, $long KiB after 30000"
 
-scene=$(dirname "$0")/../../scenes/fall.toml
+scene=scenes/fall.toml
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 TIMEFORMAT='%U %S'

@@ -121,6 +121,21 @@ std::string dump(const Scene& scene) {
                     rule.restitution, rule.separate, rule.approachingOnly);
   }
   for (const Force& force : world.forces) text += "\nforce " + dump(force);
+  if (scene.golden) {
+    const Tolerance& t = scene.golden->tolerance;
+    text += fmt::format("\ngolden {} | {} {} {} {} {} {} {} {} {}", fmt::join(scene.golden->at, " "),
+                        t.maxChannel.value_or(0.0), t.maxPixels.value_or(-1), t.maxRatio.value_or(-1.0),
+                        t.maxCluster.value_or(-1), t.flipMax.value_or(-1.0), t.ssimMin.value_or(-2.0),
+                        t.maxForgiven.value_or(-1), t.ignoreAntialiasing, t.strictAlpha);
+    for (const IgnoredRegion& region : t.ignore)
+      text += fmt::format(" {} {} {} {}", region.x, region.y, region.width, region.height);
+    for (const std::filesystem::path& mask : t.masks) text += " " + mask.string();
+  }
+  if (scene.replay) {
+    for (const Replay::Frame& frame : scene.replay->frames)
+      text += fmt::format("\nreplay {} {}+{}", frame.time, frame.first, frame.count);
+    text += fmt::format("\nlooks {}", fmt::join(scene.replay->looks, " "));
+  }
   return text;
 }
 

@@ -1,4 +1,4 @@
-#include "src/app/json_text.h"
+#include "render/output/json_text.h"
 
 #include <fmt/format.h>
 
