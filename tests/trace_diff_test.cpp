@@ -45,13 +45,16 @@ TEST_F(TraceDiff, NamesTheFirstFrameBodyAndQuantity) {
                               "expected 460 (off by 0.0927222 px)\n")));
 }
 
-TEST_F(TraceDiff, HoldsOffstagesOwnTraceToTheJvms) {
+TEST_F(TraceDiff, HoldsOffstagesOwnTracesToTheJvms) {
   const auto log = referenceFolder() / "trajectories/dt/dt60.txt";
-  const auto own = dir_ / "own.csv";
-  ASSERT_EQ(
-      offstage({"trace", referenceFolder() / "oracle_scenes/6a_elastic.toml", "--dt", log, "-o", own}).status,
-      0);
-  EXPECT_EQ(offstage({"diff", unpacked("trajectories/out/6a_elastic"), own}).status, 0);
+  const auto expected = unpacked("trajectories/out/6a_elastic");
+  for (const char* name : {"own.csv", "own.jsonl"}) {
+    const auto own = dir_ / name;
+    const auto scene = referenceFolder() / "oracle_scenes/6a_elastic.toml";
+    ASSERT_EQ(offstage({"trace", scene, "--dt", log, "-o", own}).status, 0);
+    const ProcessResult result = offstage({"diff", expected, own});
+    EXPECT_EQ(result.status, 0) << name << ": " << result.out << result.err;
+  }
 }
 
 TEST_F(TraceDiff, ToleranceIsInPixelsAndPixelsASecond) {

@@ -70,6 +70,40 @@ TEST(TraceReader, ReadsBackWhatTheWriterWroteToTheLastBit) {
   EXPECT_TRUE(trace.hasVelocity);
 }
 
+TEST(TraceReader, ReadsJsonLinesAsTheWriterWritesThem) {
+  Scene scene = sceneOf("[[body]]\ngroup = \"a,\\\"b\\\"\\n\\u00e4\"\ncenter = [0.1, 2.5]\nradius = "
+                        "3\nvelocity = [-4, 1e300]\n");
+  scene.world.bodies[0].position.y() = std::numeric_limits<double>::infinity();
+  std::ostringstream out;
+  TraceWriter(out, TraceFormat::JsonLines, scene.world.groups).write(World(scene.world));
+  const Trace trace = traceOf(out.str());
+  ASSERT_EQ(trace.rows.size(), 1U);
+  EXPECT_EQ(trace.groups.front(), "a,\"b\"\nä");
+  EXPECT_EQ(trace.rows[0].x, 0.1);
+  EXPECT_TRUE(std::isnan(trace.rows[0].y)); // JSON has no infinity, so it was written as null
+  EXPECT_EQ(trace.rows[0].vy, 1e300);
+  EXPECT_TRUE(trace.hasVelocity);
+  const Trace foreign = traceOf(
+      "\n {\"id\": 7, \"x\":1,\"y\" :2, \"radius\":3,\"time\":0.5,\"frame\":0,\"note\":\"\\ud83d\\ude00\","
+      "\"group\":\"\\u00e4\\ud83d\\ude00\"}\r\n");
+  EXPECT_EQ(foreign.groups.front(), "ä😀");
+  EXPECT_FALSE(foreign.hasVelocity);
+}
+
+TEST(TraceReader, TellsWhatIsWrongWithJsonLines) {
+  const std::string start = "{\"frame\":0,\"time\":0,\"id\":0,\"x\":1,\"y\":2";
+  EXPECT_THAT(traceErrorsOf(start + "}\n" + start + ",\"radius\":\"a\"}\n" + start + ",\"radius\":[1]}\n" +
+                            start + ",\"radius\":1} x\n" + start + ",\"radius\":1,\"x\":1}\n" + start),
+              ElementsAre("1:1: error: this line has no 'radius'",
+                          "2:49: error: 'radius' must be a number, but it is \"a\"",
+                          "3:49: error: here this line stops being a JSON object of numbers and texts",
+                          "4:52: error: here this line stops being a JSON object of numbers and texts",
+                          "5:55: error: 'x' is there twice",
+                          "6:39: error: here this line stops being a JSON object of numbers and texts"));
+  EXPECT_THAT(traceErrorsOf(start + ",\"radius\":1,\"vx\":1}\n"),
+              ElementsAre("1:1: error: all lines of a trace have both 'vx' and 'vy', or none has"));
+}
+
 TEST(TraceReader, ColumnsComeInAnyOrderAndOthersAreSkipped) {
   const Trace trace = traceOf("\xEF\xBB\xBF"
                               "note,radius,y,x,id,time,frame,vy,vx\r\n"

@@ -31,7 +31,7 @@ enum class InputKind {
   Picture,  ///< a PNG, JPEG or BMP
   Sequence, ///< a folder of pictures or a pattern such as frames/%06d.png
   Video,
-  Trace, ///< a CSV of a motion, see Trace
+  Trace, ///< a CSV or JSON lines of a motion, see Trace
 };
 /// Throws Error(BadInput) when there is nothing of that name.
 InputKind inputKind(const std::filesystem::path& path);

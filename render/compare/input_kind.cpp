@@ -26,7 +26,7 @@ InputKind inputKind(const std::filesystem::path& path) {
                        head.starts_with("BM");
   const std::string ending = path.extension().string();
   const bool called = ending == ".png" || ending == ".jpg" || ending == ".jpeg" || ending == ".bmp";
-  if (ending == ".csv" || ending == ".jsonl") return InputKind::Trace; // of these the reader takes CSV only
+  if (ending == ".csv" || ending == ".jsonl") return InputKind::Trace;
   if (ending == ".apng") return InputKind::Video;
   return picture || called ? InputKind::Picture : InputKind::Video;
 }

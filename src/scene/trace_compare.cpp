@@ -221,7 +221,7 @@ void TraceComparer::compareEvents(const TraceBody* expected, const TraceBody* ac
 }
 
 void TraceComparer::noteEvent(const TraceEvent& event, std::int64_t body, bool inExpected,
-                         std::optional<std::int64_t> otherFrame) {
+                              std::optional<std::int64_t> otherFrame) {
   // An event behind the other trace's end is not missing there; it was never reached.
   if (event.frame > result_.lastFrame[inExpected ? 1 : 0]) return;
   auto& first = result_.firstEvent;

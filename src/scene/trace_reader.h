@@ -40,7 +40,8 @@ struct Trace {
   std::vector<TraceFrame> frames;  ///< by number; their times never go back
 };
 
-/// Reads a trace: CSV as RFC 4180 has it, the first line naming the columns. `frame`, `time`, `id`, `x`, `y`
+/// Reads a trace: JSON lines when it begins with a brace, else CSV as RFC 4180 has it, the first line naming
+/// the columns. `frame`, `time`, `id`, `x`, `y`
 /// and `radius` must be there; `vx` with `vy`, and `group`, may be; others are skipped; in any order. Empty
 /// lines and lines that begin with '#' are skipped. Rows may be in any order. Throws SceneError with
 /// file:line:column for every cell that is not what its column needs, for a body that is twice in a frame,
