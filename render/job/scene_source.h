@@ -19,6 +19,7 @@ public:
   void step() override { world_.step(clock_.tick(world_.frame() + 1)); }
   void draw(Picture& picture) const override;
   [[nodiscard]] std::uint64_t stateHash() const override { return world_.stateHash(); }
+  [[nodiscard]] std::uint64_t fingerprint() const override { return fingerprint_; }
 
   [[nodiscard]] const World& world() const { return world_; }
   [[nodiscard]] const Painter& painter() const { return painter_; }
@@ -28,6 +29,7 @@ private:
   std::string title_;
   World world_;
   Painter painter_;
+  std::uint64_t fingerprint_; ///< of the scene's text, its clock and its images
 };
 
 } // namespace offstage

@@ -1,5 +1,6 @@
 #include "render/output/png.h"
 
+#include "render/output/byte_order.h"
 #include "render/output/frame_check.h"
 #include "src/sim/error.h"
 
@@ -39,14 +40,10 @@ constexpr std::size_t kChunkTail = 4;
 /// Everything but the compressed rows: the signature and the largest set of chunks, rounded up.
 constexpr std::size_t kMostOverhead = 128;
 
-void storeBigEndian(std::uint8_t* to, std::uint32_t value) {
-  for (int byte = 0; byte < 4; ++byte) to[byte] = static_cast<std::uint8_t>(value >> (24 - 8 * byte));
-}
-
 /// Appends chunks to a buffer that is large enough.
-class ChunkWriter {
+class PngChunks {
 public:
-  explicit ChunkWriter(std::uint8_t* to) : begin_(to), at_(to) {
+  explicit PngChunks(std::uint8_t* to) : begin_(to), at_(to) {
     std::memcpy(at_, kSignature.data(), kSignature.size());
     at_ += kSignature.size();
   }
@@ -123,7 +120,7 @@ std::span<const std::uint8_t> PngEncoder::encode(const Frame& frame, bool alpha,
   if (bound > 0x7FFFFFFFU)
     throw Error(ExitCode::BadInput, "the picture is too large for a PNG of one IDAT chunk (2 GiB)");
   file_.resize(kMostOverhead + bound);
-  ChunkWriter chunks(file_.data());
+  PngChunks chunks(file_.data());
 
   std::uint8_t* header = chunks.data();
   storeBigEndian(header, static_cast<std::uint32_t>(frame.width));
