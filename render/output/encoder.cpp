@@ -79,6 +79,11 @@ VideoEncoder::VideoEncoder(const EncoderSettings& settings) : traits_(traitsOf(s
   picture_->format = context.pix_fmt;
   picture_->width = context.width;
   picture_->height = context.height;
+  // ProRes takes the colour from each picture.
+  picture_->color_primaries = context.color_primaries;
+  picture_->color_trc = context.color_trc;
+  picture_->colorspace = context.colorspace;
+  picture_->color_range = context.color_range;
   libav::check(av_frame_get_buffer(picture_.get(), 0), ExitCode::BadInput, "no memory for a picture");
   packet_ = libav::makePacket();
   converter_ = makePixelConverter(context.pix_fmt);
@@ -91,7 +96,7 @@ void VideoEncoder::encode(const Frame& frame, std::int64_t start, std::int64_t d
   libav::check(av_frame_make_writable(&picture), ExitCode::Transient, "no memory for a picture");
   converter_->convert(frame, picture);
   picture.pts = start;
-  picture.quality = context_->global_quality; // ProRes reads it from each picture
+  picture.quality = context_->global_quality; // … and so its quality
   durations_.emplace(start, duration);
   send(&picture, take);
 }

@@ -63,7 +63,7 @@ OptionList h264Options(Quality quality) {
   case Quality::Draft:
     return {{"preset", "superfast"}, {"profile", "high"}, {"crf", "26"}, {"x264-params", kX264Good}};
   case Quality::Good:
-    return {{"preset", "veryfast"}, {"profile", "high"}, {"crf", "20.4"}, {"x264-params", kX264Good}};
+    return {{"preset", "veryfast"}, {"profile", "high"}, {"crf", "20.3"}, {"x264-params", kX264Good}};
   case Quality::High:
     return {{"preset", "medium"}, {"profile", "high"}, {"crf", "14"}, {"x264-params", "cpu-independent=1"}};
   case Quality::Lossless:
