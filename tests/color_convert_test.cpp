@@ -193,6 +193,72 @@ TEST(ColorConvert, HonoursStridesAndWritesNothingBeside) {
   }
 }
 
+/// The frame `after`, told to differ from `before` in these rectangles; elsewhere it holds `before`'s pixels.
+Frame damaged(const Frame& before, Frame after, const std::vector<PixelRect>& damage) {
+  const Frame whole = after;
+  after.rgba = before.rgba;
+  for (const PixelRect& rect : damage) {
+    for (int row = rect.top; row < rect.bottom; ++row) {
+      const auto begin = static_cast<std::ptrdiff_t>(test::pixelIndex(row, after.width, rect.left) * 4);
+      std::copy_n(whole.rgba.begin() + begin, (rect.right - rect.left) * 4, after.rgba.begin() + begin);
+    }
+  }
+  after.base = before.id;
+  after.damage = damage;
+  return after;
+}
+
+TEST(ColorConvert, DamagedPartsGiveTheBytesOfAWholeConversion) {
+  for (const auto& [width, height] : {std::pair{64, 48}, {63, 47}, {65, 33}, {5, 5}, {1, 1}}) {
+    Planes planes;
+    planes.width = evenSize(width);
+    planes.height = evenSize(height);
+    planes.y.assign(test::pixelIndex(planes.height, planes.width, 0), 0);
+    planes.u.assign(planes.y.size() / 4, 0);
+    planes.v.assign(planes.y.size() / 4, 0);
+    Yuv420Converter converter;
+    Frame before = noiseFrame(width, height, 1);
+    before.id = 1;
+    std::uint32_t seed = 2;
+    const auto random = [&seed](int limit) {
+      seed = seed * 1664525U + 1013904223U;
+      return static_cast<int>((seed >> 8U) % static_cast<std::uint32_t>(limit));
+    };
+    for (std::uint64_t id = 1; id < 60; ++id) {
+      Frame frame = before;
+      if (id > 1) {
+        std::vector<PixelRect> damage;
+        for (int i = random(3); i > 0; --i) {
+          const int left = random(width);
+          const int top = random(height);
+          damage.push_back({left, top, left + 1 + random(width - left), top + 1 + random(height - top)});
+        }
+        frame = damaged(before, noiseFrame(width, height, seed), damage);
+        frame.id = id;
+      }
+      converter.convert(frame, {planes.y.data(), planes.u.data(), planes.v.data(), planes.width,
+                                planes.width / 2, planes.width / 2});
+      const Planes whole = convert(frame);
+      ASSERT_EQ(planes.y, whole.y) << width << " × " << height << ", frame " << id;
+      ASSERT_EQ(planes.u, whole.u) << width << " × " << height << ", frame " << id;
+      ASSERT_EQ(planes.v, whole.v) << width << " × " << height << ", frame " << id;
+      before = frame;
+    }
+  }
+}
+
+TEST(ColorConvert, DamageOfAnotherFrameCountsForNothing) {
+  const Frame first = flatFrame(16, 16, {10, 20, 30, 255});
+  Frame other = noiseFrame(16, 16, 4);
+  other.id = 9;
+  other.base = 7; // not what was converted before
+  Planes planes = convert(first);
+  Yuv420Converter converter;
+  for (const Frame* frame : {static_cast<const Frame*>(&first), static_cast<const Frame*>(&other)})
+    converter.convert(*frame, {planes.y.data(), planes.u.data(), planes.v.data(), 16, 8, 8});
+  EXPECT_EQ(planes.y, convert(other).y);
+}
+
 TEST(ColorConvert, RefusesATornFrame) {
   Frame torn = flatFrame(4, 4, {});
   torn.rgba.resize(10);

@@ -1,4 +1,6 @@
+#include "render/output/png.h"
 #include "render/output/png_sequence.h"
+#include "tests/support/output_writer.h"
 #include "tests/support/temp_dir.h"
 #include "tests/support/test_frames.h"
 
@@ -71,9 +73,8 @@ TEST(FramePattern, KnowsItsOwnNames) {
 
 TEST(PngSequence, MakesTheFolderAndNumbersFromZero) {
   const TempDir dir;
-  PngSequenceSink sink(dir / "deep/er/f%02d.png", formatOf(40, 30));
-  for (int k = 0; k < 3; ++k) sink.write(lectureFrame(40, 30, k), test::fixedTiming(k, 60.0));
-  sink.finish();
+  const test::Written written =
+      test::writeOutput(dir / "deep/er/f%02d.png", formatOf(40, 30), test::fixedTimings(3, 60.0));
   EXPECT_THAT(dir.names("deep/er"), ElementsAre("f00.png", "f01.png", "f02.png"));
   std::int64_t bytes = 0;
   for (int k = 0; k < 3; ++k) {
@@ -82,25 +83,24 @@ TEST(PngSequence, MakesTheFolderAndNumbersFromZero) {
         << k;
     bytes += static_cast<std::int64_t>(png.size());
   }
-  EXPECT_EQ(sink.bytesWritten(), bytes);
-  EXPECT_EQ(sink.notice(), "");
+  EXPECT_EQ(written.bytes, bytes);
+  EXPECT_EQ(written.notice, "");
 }
 
 TEST(PngSequence, TransparentBackgroundGivesRgba) {
   const TempDir dir;
   SinkFormat format = formatOf(8, 8);
   format.alpha = true;
-  PngSequenceSink sink(dir / "%d.png", format);
-  sink.write(test::noiseFrame(8, 8, 1), {0, 0, 1});
-  sink.finish();
+  test::writeOutput(dir / "%d.png", format, {{0, 0, 1}}, [](int) { return test::noiseFrame(8, 8, 1); });
   EXPECT_EQ(test::readFile(dir / "0.png").at(25), 6) << "colour type";
 }
 
 TEST(PngSequence, InterruptedRunLeavesWholeFramesOnly) {
   const TempDir dir;
   {
-    PngSequenceSink sink(dir / "%d.png", formatOf(40, 30));
-    for (int k = 0; k < 2; ++k) sink.write(lectureFrame(40, 30, k), test::fixedTiming(k, 60.0));
+    const PngSequenceOutput output(dir / "%d.png", formatOf(40, 30));
+    const auto writer = output.begin(dir / "chunk", 0);
+    for (int k = 0; k < 2; ++k) writer->write(lectureFrame(40, 30, k), test::fixedTiming(k, 60.0));
   }
   EXPECT_THAT(dir.names(), ElementsAre("0.png", "1.png"));
 }
@@ -109,22 +109,39 @@ TEST(PngSequence, TellsOfFramesThatAnEarlierRunLeft) {
   const TempDir dir;
   for (const char* name : {"0.png", "1.png", "2.png", "10.png", "x.png", "002.png"})
     test::writeFile(dir / name, "old");
-  PngSequenceSink sink(dir / "%d.png", formatOf(8, 6));
-  for (int k = 0; k < 2; ++k) sink.write(lectureFrame(8, 6, k), test::fixedTiming(k, 60.0));
-  sink.finish();
-  EXPECT_EQ(sink.notice(),
+  const test::Written written =
+      test::writeOutput(dir / "%d.png", formatOf(8, 6), test::fixedTimings(2, 60.0));
+  EXPECT_EQ(written.notice,
             "'" + dir.path().native() + "' holds 2 frames of an earlier run with higher numbers than 1");
   EXPECT_EQ(test::readFile(dir / "10.png"), "old");
   EXPECT_NE(test::readFile(dir / "1.png"), "old");
 }
 
+TEST(PngSequence, AChunkIsWholeOnlyWithAllItsPictures) {
+  const TempDir dir;
+  PngSequenceOutput output(dir / "%d.png", formatOf(40, 30));
+  const auto writer = output.begin(dir / "chunk", 0);
+  for (int k = 0; k < 2; ++k) writer->write(lectureFrame(40, 30, k), test::fixedTiming(k, 60.0));
+  writer->finish();
+  EXPECT_TRUE(output.isWhole(dir / "chunk"));
+  const std::string picture = test::readFile(dir / "1.png");
+  test::writeFile(dir / "1.png", picture.substr(1));
+  EXPECT_FALSE(output.isWhole(dir / "chunk"));
+  EXPECT_THAT(errorOf([&] { output.join(std::vector<std::filesystem::path>{dir / "chunk"}, 2); }),
+              StartsWith("75: pictures of "));
+  test::writeFile(dir / "1.png", picture);
+  EXPECT_TRUE(output.isWhole(dir / "chunk"));
+  std::filesystem::remove(dir / "0.png");
+  EXPECT_FALSE(output.isWhole(dir / "chunk"));
+}
+
 TEST(PngSequence, RefusesAFolderThatCannotBe) {
   const TempDir dir;
   test::writeFile(dir / "file", "");
-  EXPECT_THAT(errorOf([&dir] { const PngSequenceSink sink(dir / "file/%d.png", formatOf(8, 6)); }),
+  EXPECT_THAT(errorOf([&dir] { const PngSequenceOutput output(dir / "file/%d.png", formatOf(8, 6)); }),
               HasSubstr("2: cannot write"));
-  EXPECT_THAT(errorOf([&dir] { PngSequenceSink(dir / "%d.png", formatOf(8, 6)).finish(); }),
-              StartsWith("2: no frames"));
+  EXPECT_THAT(errorOf([&dir] { PngSequenceOutput(dir / "%d.png", formatOf(8, 6)).join({}, 0); }),
+              StartsWith("2: 0 frames"));
   EXPECT_THAT(dir.names(), ElementsAre("file"));
 }
 

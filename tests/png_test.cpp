@@ -137,6 +137,29 @@ TEST(Png, EncoderThatIsUsedAgainGivesTheBytesOfAFreshOne) {
   }
 }
 
+TEST(Png, DamagedFramesGiveTheBytesOfWholeOnes) {
+  for (const bool alpha : {false, true}) {
+    PngEncoder encoder;
+    Frame frame = noiseFrame(61, 40, 1);
+    for (std::uint64_t id = 1; id <= 20; ++id) {
+      frame.base = id - 1;
+      frame.id = id;
+      frame.damage.clear();
+      for (int i = 0; id > 1 && i < 2; ++i) {
+        const int left = static_cast<int>(id * 7 % 50);
+        const int top = static_cast<int>(id * 11 % 30) / 2 + 10 * i;
+        frame.damage.push_back({left, top, left + 11, top + 9});
+        for (int row = top; row < top + 9; ++row) {
+          for (int column = left; column < left + 11; ++column)
+            frame.rgba[test::pixelIndex(row, 61, column) * 4 + id % 4] ^= 0x5A;
+        }
+      }
+      const auto bytes = encoder.encode(frame, alpha);
+      ASSERT_EQ(std::vector<std::uint8_t>(bytes.begin(), bytes.end()), encodePng(frame, alpha)) << id;
+    }
+  }
+}
+
 TEST(Png, RefusesFramesThatAreNoPictures) {
   Frame torn = lectureFrame(10, 10, 0);
   torn.rgba.pop_back();

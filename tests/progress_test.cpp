@@ -16,7 +16,7 @@ std::string printed(ProgressMode mode, Show show) {
   std::size_t size = 0;
   std::FILE* stream = open_memstream(&text, &size);
   {
-    Progress progress(mode, 4, 2.0, stream);
+    Progress progress(mode, 4, 2.0, 0, stream);
     show(progress);
   }
   std::fclose(stream);

@@ -1,4 +1,7 @@
+#include "render/output/chunked_output.h"
+#include "render/output/output_kind.h"
 #include "render/output/sink.h"
+#include "tests/support/output_writer.h"
 #include "tests/support/temp_dir.h"
 #include "tests/support/test_frames.h"
 
@@ -29,17 +32,26 @@ SinkFormat smallFormat() {
 }
 
 std::string makeError(const std::filesystem::path& out, const SinkFormat& format = smallFormat()) {
-  return errorOf([&] { makeSink(out, format); });
+  return errorOf([&] {
+    if (isStream(outputKind(out)))
+      makeSink(out, format);
+    else
+      makeChunkedOutput(out, format);
+  });
 }
 
 void writeTwoFrames(const std::filesystem::path& out) {
+  if (!isStream(outputKind(out))) {
+    EXPECT_GT(test::writeOutput(out, smallFormat(), test::fixedTimings(2, 30.0)).bytes, 0) << out;
+    return;
+  }
   const auto sink = makeSink(out, smallFormat());
   for (int k = 0; k < 2; ++k) sink->write(test::lectureFrame(16, 12, k), test::fixedTiming(k, 30.0));
   sink->finish();
   EXPECT_GT(sink->bytesWritten(), 0) << out;
 }
 
-TEST(MakeSink, EndingChoosesTheFormatInAnyCase) {
+TEST(Output, EndingChoosesTheFormatInAnyCase) {
   const TempDir dir;
   for (const char* name : {"a.mp4", "b.MOV", "c.Mkv", "d.raw", "e%d.PNG"}) writeTwoFrames(dir / name);
   EXPECT_THAT(dir.names(), ElementsAre("a.mp4", "b.MOV", "c.Mkv", "d.raw", "e0.PNG", "e1.PNG"));
@@ -50,9 +62,9 @@ TEST(MakeSink, EndingChoosesTheFormatInAnyCase) {
   EXPECT_EQ(test::readFile(dir / "e1.PNG").substr(0, 4), "\x89PNG");
 }
 
-TEST(MakeSink, ListsTheEndingsThatThereAre) {
+TEST(Output, ListsTheEndingsThatThereAre) {
   const std::string list =
-      ".mp4, .mkv, .mov (H.264 video), a pattern such as frames/%06d.png, .raw (RGBA bytes), or - "
+      ".mp4, .mkv, .mov, .webm, .gif, .apng, a pattern such as frames/%06d.png, .raw (RGBA bytes), or - "
       "(RGBA bytes to standard output)";
   EXPECT_EQ(makeError("x.avi"), "2: cannot write .avi files ('x.avi'); there are " + list);
   EXPECT_EQ(makeError("x"), "2: the name 'x' has no ending that tells what to write: " + list);
@@ -60,26 +72,29 @@ TEST(MakeSink, ListsTheEndingsThatThereAre) {
   EXPECT_EQ(makeError(".mp4"), "2: the name '.mp4' has no ending that tells what to write: " + list);
 }
 
-TEST(MakeSink, SuggestsAPatternForASinglePng) {
+TEST(Output, SuggestsAPatternForASinglePng) {
   EXPECT_EQ(makeError("out/x.png"),
             "2: 'out/x.png' names one picture: write 'out/x-%06d.png' for a file a frame, or use "
             "`offstage still` for a single frame");
   EXPECT_THAT(makeError("x%s.png"), StartsWith("2: bad pattern"));
 }
 
-TEST(MakeSink, RefusesTransparencyWhereThereIsNoneAndNamesWhatHasIt) {
+TEST(Output, RefusesTransparencyWhereThereIsNoneAndNamesWhatHasIt) {
   const TempDir dir;
   SinkFormat format = smallFormat();
   format.alpha = true;
-  for (const char* name : {"a.mp4", "a.mov", "a.mkv"}) {
+  for (const char* name : {"a.mp4", "a.mkv", "a.gif"}) {
     EXPECT_THAT(makeError(dir / name, format), AllOf(StartsWith("2: "), HasSubstr("no transparency"),
                                                      HasSubstr("frames/%06d.png"), HasSubstr(".raw")));
   }
-  EXPECT_EQ(makeError(dir / "a.raw", format), "no error");
+  for (const char* name : {"a.mov", "a.webm", "a.apng", "a%d.png", "a.raw"})
+    EXPECT_EQ(makeError(dir / name, format), "no error") << name;
+  format.quality = Quality::Lossless;
+  EXPECT_EQ(makeError(dir / "a.mkv", format), "no error");
   EXPECT_THAT(dir.names(), IsEmpty());
 }
 
-TEST(MakeSink, FindsUnusableNamesBeforeTheFirstFrame) {
+TEST(Output, FindsUnusableNamesBeforeTheFirstFrame) {
   const TempDir dir;
   std::filesystem::create_directory(dir / "folder.mp4");
   std::filesystem::create_directory(dir / "folder.raw");
@@ -91,7 +106,7 @@ TEST(MakeSink, FindsUnusableNamesBeforeTheFirstFrame) {
   }
 }
 
-TEST(MakeSink, RefusesSizesAndRatesThatNoVideoHas) {
+TEST(Output, RefusesSizesAndRatesThatNoVideoHas) {
   const TempDir dir;
   SinkFormat format = smallFormat();
   for (const double fps :
@@ -109,20 +124,44 @@ TEST(MakeSink, RefusesSizesAndRatesThatNoVideoHas) {
   EXPECT_THAT(makeError(dir / "a.mp4", format), HasSubstr("at most 16384 px a side, not 16385 × 12"));
   for (const int width : {0, -16}) {
     format.width = width;
-    for (const char* name : {"a.mp4", "a.raw", "a%d.png", "-"}) {
+    for (const char* name : {"a.mp4", "a.raw", "a%d.png", "a.gif", "a.apng"}) {
       EXPECT_THAT(makeError(dir / name, format), HasSubstr("cannot be written")) << name << ' ' << width;
     }
   }
   EXPECT_THAT(dir.names(), IsEmpty());
 }
 
-TEST(MakeSink, UnfinishedSinkLeavesTheOlderFileAlone) {
+TEST(Output, RefusesAQualityThatAFormatDoesNotHave) {
+  const TempDir dir;
+  SinkFormat format = smallFormat();
+  format.quality = Quality::Lossless;
+  for (const char* name : {"a.mp4", "a.mov", "a.webm"})
+    EXPECT_THAT(makeError(dir / name, format), AllOf(StartsWith("2: "), HasSubstr("use .mkv"))) << name;
+  EXPECT_THAT(makeError(dir / "a.gif", format), HasSubstr("leave out --quality"));
+  for (const char* name : {"a.mkv", "a.apng", "a%d.png", "a.raw"})
+    EXPECT_EQ(makeError(dir / name, format), "no error") << name;
+  for (const Quality quality : {Quality::Draft, Quality::Good, Quality::High}) {
+    format.quality = quality;
+    for (const char* name : {"a.gif", "a.apng", "a%d.png", "a.raw"})
+      EXPECT_THAT(makeError(dir / name, format), AllOf(StartsWith("2: "), HasSubstr("leave out --quality")))
+          << name;
+    for (const char* name : {"a.mp4", "a.mkv", "a.mov", "a.webm"})
+      EXPECT_EQ(makeError(dir / name, format), "no error") << name;
+  }
+  EXPECT_THAT(dir.names(), IsEmpty());
+}
+
+TEST(Output, UnfinishedOutputLeavesTheOlderFileAlone) {
   const TempDir dir;
   for (const char* name : {"a.mp4", "a.mkv", "a.raw"}) {
     test::writeFile(dir / name, "old");
-    {
+    if (isStream(outputKind(name))) {
       const auto sink = makeSink(dir / name, smallFormat());
       for (int k = 0; k < 2; ++k) sink->write(test::lectureFrame(16, 12, k), test::fixedTiming(k, 30.0));
+    } else {
+      const auto output = makeChunkedOutput(dir / name, smallFormat());
+      const auto writer = output->begin(dir / "chunk", 0);
+      for (int k = 0; k < 2; ++k) writer->write(test::lectureFrame(16, 12, k), test::fixedTiming(k, 30.0));
     }
     EXPECT_EQ(test::readFile(dir / name), "old") << name;
     writeTwoFrames(dir / name);

@@ -1,6 +1,8 @@
+#include "render/output/chunk_plan.h"
+#include "render/output/chunked_output.h"
 #include "render/output/verify.h"
-#include "render/output/video_sink.h"
 #include "tests/support/child.h"
+#include "tests/support/output_writer.h"
 #include "tests/support/temp_dir.h"
 #include "tests/support/test_frames.h"
 #include "tests/support/video_decode.h"
@@ -11,6 +13,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <sys/resource.h>
 #include <vector>
@@ -26,27 +29,18 @@ namespace fs = std::filesystem;
 using test::DecodedVideo;
 using test::decodeVideo;
 using test::errorOf;
+using test::fixedTimings;
 using test::flatFrame;
 using test::formatOf;
 using test::lectureFrame;
 using test::TempDir;
+using test::timingsOf;
+using test::writeOutput;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
 constexpr std::array<const char*, 3> kNames{"a.mp4", "a.mov", "a.mkv"};
-
-/// Timings of frames that last so long, in ns.
-std::vector<FrameTiming> timingsOf(const std::vector<std::int64_t>& durations) {
-  std::vector<FrameTiming> timings;
-  timings.reserve(durations.size());
-  std::int64_t time = 0;
-  for (const std::int64_t duration : durations) {
-    timings.push_back({static_cast<std::int64_t>(timings.size()), time, time + duration});
-    time += duration;
-  }
-  return timings;
-}
 
 /// A main loop's log: about 60 frames a second, never quite, and one hiccup.
 std::vector<std::int64_t> recordedDurations(int frames, int hiccupAt) {
@@ -57,19 +51,8 @@ std::vector<std::int64_t> recordedDurations(int frames, int hiccupAt) {
   return durations;
 }
 
-void writeVariable(const fs::path& out, const SinkFormat& format, const std::vector<FrameTiming>& timings) {
-  const auto sink = makeSink(out, format);
-  for (const FrameTiming& timing : timings) {
-    sink->write(lectureFrame(format.width, format.height, static_cast<int>(timing.index)), timing);
-  }
-  sink->finish();
-}
-
 void writeFixed(const fs::path& out, const SinkFormat& format, int frames) {
-  std::vector<FrameTiming> timings;
-  timings.reserve(static_cast<std::size_t>(frames));
-  for (int k = 0; k < frames; ++k) timings.push_back(test::fixedTiming(k, format.fps));
-  writeVariable(out, format, timings);
+  writeOutput(out, format, fixedTimings(frames, format.fps));
 }
 
 TEST(Video, IsWhatPlayersExpectInEveryContainer) {
@@ -135,7 +118,7 @@ TEST(Video, VariableRateFollowsTheRecordingToItsEnd) {
   for (const int hiccup : {0, 1, 20, 38, 39}) { // 40 frames: the hiccup is also the first and the last
     const std::vector<FrameTiming> timings = timingsOf(recordedDurations(40, hiccup));
     for (const char* name : kNames) {
-      writeVariable(dir / name, formatOf(64, 48, 0.0), timings);
+      writeOutput(dir / name, formatOf(64, 48, 0.0), timings);
       const DecodedVideo video = decodeVideo(dir / name);
       const double tick = std::string(name) == "a.mkv" ? 1e6 : 1e3;
       ASSERT_EQ(video.pictures.size(), timings.size()) << name << ", hiccup " << hiccup;
@@ -163,7 +146,7 @@ TEST(Video, FrameThatIsNeverSeenGivesWayToTheNext) {
   const TempDir dir;
   // Frames 2 and 3 begin in the same microsecond as frame 4; frame 6, the last, lasts no time at all.
   const std::vector<FrameTiming> timings = timingsOf({16000000, 16000000, 0, 300, 16000000, 16000000, 0});
-  writeVariable(dir / "a.mp4", formatOf(64, 48, 0.0), timings);
+  writeOutput(dir / "a.mp4", formatOf(64, 48, 0.0), timings);
   const DecodedVideo video = decodeVideo(dir / "a.mp4");
   ASSERT_EQ(video.pictures.size(), 4U);
   EXPECT_EQ(video.pictures[2].start, 32000000);
@@ -172,10 +155,10 @@ TEST(Video, FrameThatIsNeverSeenGivesWayToTheNext) {
   EXPECT_EQ(video.duration, 64000000);
 }
 
-TEST(Video, OriginIsTheFirstFrameAndOneFrameIsEnough) {
+TEST(Video, OneFrameIsEnough) {
   const TempDir dir;
   for (const char* name : kNames) {
-    writeVariable(dir / name, formatOf(64, 48, 0.0), {{0, 5000000000, 5040000000}});
+    writeOutput(dir / name, formatOf(64, 48, 0.0), timingsOf({40000000}));
     const DecodedVideo video = decodeVideo(dir / name);
     ASSERT_EQ(video.pictures.size(), 1U) << name;
     EXPECT_EQ(video.pictures[0].start, 0) << name;
@@ -185,28 +168,26 @@ TEST(Video, OriginIsTheFirstFrameAndOneFrameIsEnough) {
 
 TEST(Video, ChunksJoinWithoutASeam) {
   const TempDir dir;
-  const int frames = 2 * kChunkFrames + 5;
+  const int frames = 485;
+  const ChunkPlan plan(frames);
+  ASSERT_EQ(plan.chunks(), 4);
+  std::vector<bool> begins(frames, false);
+  for (std::int64_t chunk = 0; chunk < plan.chunks(); ++chunk)
+    begins[static_cast<std::size_t>(plan.begin(chunk))] = true;
   for (const double fps : {60.0, 0.0}) {
-    const std::vector<FrameTiming> timings = timingsOf(recordedDurations(frames, kChunkFrames));
-    const SinkFormat format = formatOf(48, 32, fps);
-    if (fps > 0.0) {
-      writeFixed(dir / "a.mp4", format, frames);
-    } else {
-      writeVariable(dir / "a.mp4", format, timings);
-    }
+    const std::vector<FrameTiming> timings =
+        fps > 0.0 ? fixedTimings(frames, fps)
+                  : timingsOf(recordedDurations(frames, static_cast<int>(plan.begin(1))));
+    writeOutput(dir / "a.mp4", formatOf(160, 120, fps), timings);
     const DecodedVideo video = decodeVideo(dir / "a.mp4");
-    ASSERT_EQ(video.pictures.size(), static_cast<std::size_t>(frames));
-    for (int k = 0; k < frames; ++k) {
-      const test::DecodedPicture& picture = video.pictures[static_cast<std::size_t>(k)];
-      const double expected =
-          fps > 0.0 ? k / fps * 1e9 : static_cast<double>(timings[static_cast<std::size_t>(k)].start);
-      EXPECT_NEAR(static_cast<double>(picture.start), expected, 501.0) << "frame " << k;
-      EXPECT_TRUE(picture.keyFrame || k % kChunkFrames != 0) << "frame " << k;
-    }
-    for (const int k : {kChunkFrames - 1, kChunkFrames, frames - 1}) {
-      EXPECT_LT(
-          test::meanAbsoluteError(test::toRgb(video, static_cast<std::size_t>(k)), lectureFrame(48, 32, k)),
-          2.0)
+    ASSERT_EQ(video.pictures.size(), timings.size());
+    for (std::size_t k = 0; k < timings.size(); ++k) {
+      EXPECT_NEAR(static_cast<double>(video.pictures[k].start), static_cast<double>(timings[k].start), 501.0)
+          << "frame " << k;
+      EXPECT_TRUE(video.pictures[k].keyFrame || !begins[k]) << "frame " << k;
+      if (!begins[k] && (k + 1 == timings.size() || !begins[k + 1])) continue;
+      EXPECT_LT(test::meanAbsoluteError(test::toRgb(video, k), lectureFrame(160, 120, static_cast<int>(k))),
+                2.0)
           << k;
     }
   }
@@ -236,9 +217,8 @@ TEST(Video, SaturatedColoursAreNotShifted) {
                                                            {0, 0, 0, 255},
                                                            {128, 128, 128, 255}}};
   for (const auto& color : colors) {
-    const auto sink = makeSink(dir / "a.mp4", formatOf(64, 48, 30.0));
-    for (int k = 0; k < 5; ++k) sink->write(flatFrame(64, 48, color), test::fixedTiming(k, 30.0));
-    sink->finish();
+    writeOutput(dir / "a.mp4", formatOf(64, 48, 30.0), fixedTimings(5, 30.0),
+                [&](int) { return flatFrame(64, 48, color); });
     const Frame decoded = test::toRgb(decodeVideo(dir / "a.mp4"), 4);
     int worst = 0;
     for (std::size_t i = 0; i < decoded.rgba.size(); ++i)
@@ -249,14 +229,13 @@ TEST(Video, SaturatedColoursAreNotShifted) {
 
 TEST(Video, OddSizesArePaddedAndItSaysSo) {
   const TempDir dir;
-  const auto sink = makeSink(dir / "a.mp4", formatOf(641, 33, 30.0));
-  EXPECT_EQ(sink->notice(), "width 641 is odd: padded to 642 by repeating the last column\n"
-                            "height 33 is odd: padded to 34 by repeating the last row");
-  EXPECT_EQ(makeSink(dir / "b.mp4", formatOf(640, 33, 30.0))->notice(),
+  EXPECT_EQ(makeChunkedOutput(dir / "a.mp4", formatOf(641, 33, 30.0))->notice(),
+            "width 641 is odd: padded to 642 by repeating the last column\n"
             "height 33 is odd: padded to 34 by repeating the last row");
-  EXPECT_EQ(makeSink(dir / "b.mp4", formatOf(640, 32, 30.0))->notice(), "");
-  sink->write(lectureFrame(641, 33, 0), test::fixedTiming(0, 30.0));
-  sink->finish();
+  EXPECT_EQ(makeChunkedOutput(dir / "b.mp4", formatOf(640, 33, 30.0))->notice(),
+            "height 33 is odd: padded to 34 by repeating the last row");
+  EXPECT_EQ(makeChunkedOutput(dir / "b.mp4", formatOf(640, 32, 30.0))->notice(), "");
+  writeFixed(dir / "a.mp4", formatOf(641, 33, 30.0), 1);
   const DecodedVideo video = decodeVideo(dir / "a.mp4");
   EXPECT_EQ(video.width, 642);
   EXPECT_EQ(video.height, 34);
@@ -277,8 +256,8 @@ TEST(Video, SameFramesGiveTheSameBytes) {
       const std::vector<FrameTiming> timings = timingsOf(recordedDurations(30, 9));
       const fs::path first = dir / fmt::format("first.{}", ending);
       const fs::path second = dir / fmt::format("another-name.{}", ending);
-      writeVariable(first, format, timings);
-      writeVariable(second, format, timings);
+      writeOutput(first, format, timings);
+      writeOutput(second, format, timings);
       EXPECT_TRUE(test::readFile(first) == test::readFile(second)) << ending << ' ' << fps;
     }
   }
@@ -293,13 +272,11 @@ TEST(Video, NamesThatLookLikeProtocolsAreFiles) {
   EXPECT_EQ(dir.names().size(), 3U);
 }
 
-TEST(Video, BytesWrittenIsTheFilesSize) {
+TEST(Video, JoinTellsTheFilesSize) {
   const TempDir dir;
   for (const char* name : kNames) {
-    const auto sink = makeSink(dir / name, formatOf(64, 48, 30.0));
-    for (int k = 0; k < 20; ++k) sink->write(lectureFrame(64, 48, k), test::fixedTiming(k, 30.0));
-    sink->finish();
-    EXPECT_EQ(sink->bytesWritten(), static_cast<std::int64_t>(fs::file_size(dir / name))) << name;
+    const test::Written written = writeOutput(dir / name, formatOf(64, 48, 30.0), fixedTimings(20, 30.0));
+    EXPECT_EQ(written.bytes, static_cast<std::int64_t>(fs::file_size(dir / name))) << name;
   }
 }
 
@@ -307,13 +284,15 @@ TEST(Video, RefusesFramesOutOfOrder) {
   const TempDir dir;
   const SinkFormat format = formatOf(32, 24, 0.0);
   const Frame frame = lectureFrame(32, 24, 0);
-  const auto errorAfter = [&](const std::vector<FrameTiming>& timings) {
+  const auto errorAfter = [&](const std::vector<FrameTiming>& timings, std::int64_t firstFrame = 0) {
     return errorOf([&] {
-      VideoSink sink(dir / "a.mp4", Container::Mp4, format);
-      for (const FrameTiming& timing : timings) sink.write(frame, timing);
+      const auto output = makeChunkedOutput(dir / "a.mp4", format);
+      const auto writer = output->begin(dir / "chunk", firstFrame);
+      for (const FrameTiming& timing : timings) writer->write(frame, timing);
     });
   };
   EXPECT_EQ(errorAfter({{1, 0, 10}}), "2: frame 1 came where frame 0 was due");
+  EXPECT_EQ(errorAfter({{1, 0, 10}}, 7), "2: frame 1 came where frame 7 was due");
   EXPECT_EQ(errorAfter({{0, 0, 10}, {0, 10, 20}}), "2: frame 0 came where frame 1 was due");
   const std::string order = " ns, which does not follow the frame before it";
   EXPECT_EQ(errorAfter({{0, 10, 5}}), "2: frame 0 is shown from 10 to 5" + order);
@@ -323,7 +302,9 @@ TEST(Video, RefusesFramesOutOfOrder) {
   EXPECT_EQ(errorAfter({{0, 0, 3000000000000}}),
             "2: frame 0 lasts 3000 s; a video's frame lasts at most 2147 s");
   EXPECT_EQ(errorOf([&] {
-              VideoSink(dir / "a.mp4", Container::Mp4, format).write(lectureFrame(24, 32, 0), {0, 0, 1});
+              makeChunkedOutput(dir / "a.mp4", format)
+                  ->begin(dir / "chunk", 0)
+                  ->write(lectureFrame(24, 32, 0), {0, 0, 1});
             }),
             "2: a frame of 24 × 32 px came to an output of 32 × 24 px");
   EXPECT_THAT(dir.names(), IsEmpty());
@@ -332,36 +313,53 @@ TEST(Video, RefusesFramesOutOfOrder) {
 TEST(Video, WithoutFramesThereIsNone) {
   const TempDir dir;
   for (const char* name : kNames) {
-    EXPECT_THAT(errorOf([&] { makeSink(dir / name, formatOf(32, 24, 30.0))->finish(); }),
+    EXPECT_THAT(errorOf([&] { makeChunkedOutput(dir / name, formatOf(32, 24, 30.0))->join({}, 0); }),
                 StartsWith("2: no frames"));
     // Frames that last no time are none.
     EXPECT_THAT(errorOf([&] {
-                  writeVariable(dir / name, formatOf(32, 24, 0.0), timingsOf({0, 100, 0}));
+                  writeOutput(dir / name, formatOf(32, 24, 0.0), timingsOf({0, 100, 0}));
                 }),
                 StartsWith("2: no frames"));
   }
   EXPECT_THAT(dir.names(), IsEmpty());
 }
 
+/// Runs `action` in a child whose files may grow to `bytes` only; whether it ends as on a full disk.
+bool failsAsOnAFullDisk(rlim_t bytes, const std::function<void()>& action) {
+  return test::inChild([&] {
+           std::signal(SIGXFSZ, SIG_IGN);
+           const rlimit limit{bytes, bytes};
+           setrlimit(RLIMIT_FSIZE, &limit);
+           const std::string error = errorOf(action);
+           return error.starts_with("75: cannot write ") && error.find("largest size") != std::string::npos
+                      ? 0
+                      : 1;
+         }) == 0;
+}
+
 TEST(Video, FullDiskIsTransientAndLeavesNothing) {
   const TempDir dir;
+  const std::vector<FrameTiming> timings = fixedTimings(40, 30.0);
   for (const char* name : kNames) {
-    for (const rlim_t bytes :
-         {rlim_t{10}, rlim_t{3000}, rlim_t{20000}}) { // in the header, the pictures, the index
-      EXPECT_EQ(
-          test::inChild([&] {
-            std::signal(SIGXFSZ, SIG_IGN);
-            const rlimit limit{bytes, bytes};
-            setrlimit(RLIMIT_FSIZE, &limit);
-            const std::string error = errorOf([&] { writeFixed(dir / name, formatOf(160, 120, 30.0), 60); });
-            return error.starts_with("75: cannot write ") && error.find("largest size") != std::string::npos
-                       ? 0
-                       : 1;
-          }),
-          0)
-          << name << ' ' << bytes;
-      EXPECT_THAT(dir.names(), IsEmpty()) << name << ' ' << bytes;
-    }
+    const SinkFormat format = formatOf(160, 120, 30.0);
+    const TempDir chunks;
+    const auto output = makeChunkedOutput(dir / name, format);
+    const auto makeChunk = [&](const char* chunk) {
+      const auto writer = output->begin(chunks / chunk, 0);
+      for (int k = 0; k < 40; ++k)
+        writer->write(lectureFrame(160, 120, k), timings[static_cast<std::size_t>(k)]);
+      writer->finish();
+    };
+    EXPECT_TRUE(failsAsOnAFullDisk(2000, [&] { makeChunk("a"); })) << name;
+    EXPECT_THAT(chunks.names(), IsEmpty()) << name;
+
+    makeChunk("b");
+    const std::vector<fs::path> all{chunks / "b"};
+    const auto size = static_cast<rlim_t>(output->join(all, 40));
+    fs::remove(dir / name);
+    for (const rlim_t bytes : {rlim_t{10}, size / 2, size - 10}) // in the header, the pictures, the index
+      EXPECT_TRUE(failsAsOnAFullDisk(bytes, [&] { output->join(all, 40); })) << name << ' ' << bytes;
+    EXPECT_THAT(dir.names(), IsEmpty()) << name;
   }
 }
 

@@ -21,7 +21,35 @@ ProgressMode parseProgress(const std::string& text) {
   throw Error(ExitCode::BadInput, fmt::format("--progress '{}' is not auto, json or none", text));
 }
 
+Quality parseQuality(const std::string& text) {
+  if (const std::optional<Quality> quality = qualityOfName(text)) return *quality;
+  throw Error(ExitCode::BadInput, fmt::format("--quality '{}' is not draft, good, high or lossless", text));
+}
+
+int parseJobs(const std::string& text) {
+  int jobs = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), jobs);
+  if (error == std::errc{} && end == text.data() + text.size() && jobs >= 0 && jobs <= kMostJobs) return jobs;
+  throw Error(ExitCode::BadInput,
+              fmt::format("--jobs '{}' is not a whole number from 0 to {}", text, kMostJobs));
+}
+
 } // namespace
+
+Segment parseSegment(const std::string& text) {
+  Segment segment;
+  const char* end = text.data() + text.size();
+  const auto number = std::from_chars(text.data(), end, segment.number);
+  if (number.ec == std::errc{} && number.ptr != end && *number.ptr == '/') {
+    const auto count = std::from_chars(number.ptr + 1, end, segment.count);
+    if (count.ec == std::errc{} && count.ptr == end && segment.number >= 1 &&
+        segment.number <= segment.count && segment.count <= kMostSegments)
+      return segment;
+  }
+  throw Error(ExitCode::BadInput,
+              fmt::format("--segment '{}' is not I/N, the I-th of N parts, with I from 1 to N (at most {})",
+                          text, kMostSegments));
+}
 
 std::array<int, 2> parseSize(const std::string& text) {
   std::array<int, 2> size{};
@@ -51,21 +79,70 @@ void addSizeOption(CLI::App& app, RenderOptions& options) {
       ->type_name("WxH");
 }
 
-void addRenderOptions(CLI::App& app, RenderOptions& options) {
-  app.add_option("-o,--output", options.out,
-                 "what to make; the ending chooses: .mp4 .mkv .mov, a pattern such as frames/%06d.png, .raw, "
-                 "or - for a pipe")
-      ->type_name("OUT");
+void addDrawingOptions(CLI::App& app, RenderOptions& options) {
   addSizeOption(app, options);
   addSceneOptions(app, options);
   addNumber(app, "--from", options.from, "S", "first simulated second to show");
   addNumber(app, "--to", options.to, "S", "simulated second at which to end");
+  app.add_option_function<std::string>(
+         "--quality", [&options](const std::string& text) { options.quality = parseQuality(text); },
+         "draft, good (default), high; lossless with .mkv")
+      ->type_name("WORD");
+}
+
+namespace {
+
+void addOutputOption(CLI::App& app, RenderOptions& options) {
+  app.add_option("-o,--output", options.out,
+                 "what to make; the ending chooses: .mp4 .mkv .mov .webm .gif .apng, a pattern such as "
+                 "frames/%06d.png, .raw, or - for a pipe")
+      ->type_name("OUT");
+}
+
+void addReportOptions(CLI::App& app, RenderOptions& options) {
   app.add_option_function<std::string>(
          "--progress", [&options](const std::string& text) { options.progress = parseProgress(text); },
          "auto (a bar on a terminal), json (a line each), none")
       ->type_name("MODE");
   app.add_option("--hash", options.hashFile, "write a line a frame: frame state-hash pixel-hash")
       ->type_name("FILE");
+}
+
+} // namespace
+
+void addRenderOptions(CLI::App& app, RenderOptions& options) {
+  addOutputOption(app, options);
+  addDrawingOptions(app, options);
+  app.add_option_function<std::string>(
+         "--jobs", [&options](const std::string& text) { options.jobs = parseJobs(text); },
+         "worker processes at a time (default: one a processor); 0: none, all in this process")
+      ->type_name("N");
+  app.add_option_function<std::string>(
+         "--segment", [&options](const std::string& text) { options.segment = parseSegment(text); },
+         "render only the I-th of N parts, from 1 on; join them with `offstage join`")
+      ->type_name("I/N");
+  app.add_flag_callback(
+      "--no-resume", [&options] { options.resume = false; }, "start over, whatever an earlier run has left");
+  addReportOptions(app, options);
+}
+
+void addJoinOptions(CLI::App& app, RenderOptions& options) {
+  addOutputOption(app, options);
+  addDrawingOptions(app, options);
+  addReportOptions(app, options);
+}
+
+RenderOptions parseRenderOptions(const std::vector<std::string>& arguments) {
+  RenderOptions options;
+  CLI::App app;
+  addDrawingOptions(app, options);
+  std::vector<std::string> reversed(arguments.rbegin(), arguments.rend()); // as CLI11 takes them
+  try {
+    app.parse(reversed);
+  } catch (const CLI::ParseError& error) {
+    throw Error(ExitCode::BadInput, fmt::format("bad options in a manifest: {}", error.what()));
+  }
+  return options;
 }
 
 int runCommandLine(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& action) {

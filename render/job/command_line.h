@@ -5,6 +5,7 @@
 #include <array>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -18,8 +19,20 @@ void addSceneOptions(CLI::App& app, RenderOptions& options);
 /// Adds --size.
 void addSizeOption(CLI::App& app, RenderOptions& options);
 
-/// Adds every option of `render`: -o, the above, --from --to --progress --hash.
+/// Adds the options that say what is drawn: the above, --from --to --quality.
+void addDrawingOptions(CLI::App& app, RenderOptions& options);
+
+/// Adds every option of `render`: -o, the above, --jobs --segment --no-resume --progress --hash.
 void addRenderOptions(CLI::App& app, RenderOptions& options);
+
+/// Adds the options of `join`: -o, those of addDrawingOptions, --progress --hash.
+void addJoinOptions(CLI::App& app, RenderOptions& options);
+
+/// Reads what RenderOptions::drawingArguments has written. Throws Error(BadInput) for anything else.
+RenderOptions parseRenderOptions(const std::vector<std::string>& arguments);
+
+/// "2/4" as the second of four segments; throws Error(BadInput) unless 1 ≤ I ≤ N.
+Segment parseSegment(const std::string& text);
 
 /// "1920x1080" as width and height in px; throws Error(BadInput) on anything else.
 std::array<int, 2> parseSize(const std::string& text);

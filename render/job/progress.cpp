@@ -19,8 +19,9 @@ std::string clockText(double seconds) {
 
 } // namespace
 
-Progress::Progress(ProgressMode mode, std::int64_t frames, double seconds, std::FILE* stream)
-    : mode_(mode), frames_(frames), seconds_(seconds), stream_(stream) {
+Progress::Progress(ProgressMode mode, std::int64_t frames, double seconds, std::int64_t before,
+                   std::FILE* stream)
+    : mode_(mode), frames_(frames), seconds_(seconds), before_(before), stream_(stream) {
   if (mode_ == ProgressMode::Auto && isatty(fileno(stream)) == 0) mode_ = ProgressMode::None;
 }
 
@@ -43,8 +44,8 @@ void Progress::finish(std::int64_t bytes) {
 void Progress::show(std::int64_t framesDone, std::int64_t bytes, bool last) {
   const double elapsed = std::chrono::duration<double>(SteadyClock::now() - start_).count();
   const double share = frames_ > 0 ? static_cast<double>(framesDone) / static_cast<double>(frames_) : 1.0;
-  const double rate = elapsed > 0.0 ? static_cast<double>(framesDone) / elapsed : 0.0;
-  const double speed = elapsed > 0.0 ? share * seconds_ / elapsed : 0.0;
+  const double rate = elapsed > 0.0 ? static_cast<double>(framesDone - before_) / elapsed : 0.0;
+  const double speed = frames_ > 0 ? rate * seconds_ / static_cast<double>(frames_) : 0.0;
   const double remaining = rate > 0.0 ? static_cast<double>(frames_ - framesDone) / rate : 0.0;
   if (mode_ == ProgressMode::Json) {
     fmt::print(

@@ -15,8 +15,10 @@ enum class ProgressMode : std::uint8_t {
 /// Tells on stderr how far a render is: at most ten times a second, and once at the end.
 class Progress {
 public:
-  /// `seconds` = length of the whole video in s; `stream` is stderr but in tests.
-  Progress(ProgressMode mode, std::int64_t frames, double seconds, std::FILE* stream = stderr);
+  /// `seconds` = length of the whole video in s; `before` = frames that an earlier run has made, which count
+  /// for how far it is but not for how fast; `stream` is stderr but in tests.
+  Progress(ProgressMode mode, std::int64_t frames, double seconds, std::int64_t before = 0,
+           std::FILE* stream = stderr);
   ~Progress(); ///< ends the bar's line, so that an error message does not run into it
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -31,6 +33,7 @@ private:
   ProgressMode mode_;
   std::int64_t frames_;
   double seconds_;
+  std::int64_t before_;
   std::FILE* stream_;
   SteadyClock::time_point start_ = SteadyClock::now();
   SteadyClock::time_point shown_{};

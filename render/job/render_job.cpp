@@ -1,16 +1,16 @@
 #include "render/job/render_job.h"
 
+#include "render/job/chunked_render.h"
+#include "render/job/frame_maker.h"
 #include "render/job/interrupt.h"
-#include "render/job/schedule.h"
 #include "render/output/atomic_file.h"
+#include "render/output/output_kind.h"
 #include "render/output/sink.h"
-#include "render/raster/canvas.h"
 #include "src/sim/error.h"
 
 #include <chrono>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 
 #include <fmt/format.h>
@@ -18,75 +18,47 @@
 namespace offstage {
 namespace {
 
-/// `--hash FILE`: physics and pixels of every frame, so that a change can be told apart.
-class HashFile {
-public:
-  explicit HashFile(const std::filesystem::path& path) : file_(path) {}
-  void write(std::int64_t frame, std::uint64_t state, std::uint64_t pixels) {
-    file_.write(fmt::format("{} {:016x} {:016x}\n", frame, state, pixels));
+/// Frames front to back in this process: a raw output, or none but the hashes.
+RenderResult renderStream(Source& source, const RenderOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  if (options.segment)
+    throw Error(ExitCode::BadInput, "--segment: only videos and pictures are made in segments");
+  const Schedule schedule = scheduleOf(source, options);
+
+  // Everything that can be refused is refused here, before a frame costs time.
+  std::unique_ptr<Sink> sink;
+  if (!options.out.empty()) {
+    const Picture picture = pictureOf(source);
+    sink = makeSink(options.out, {picture.width, picture.height, picture.background.a != 255, schedule.fps(),
+                                  source.title(), options.quality});
   }
-  void finish() { file_.commit(); }
+  std::optional<AtomicFile> hashes;
+  if (!options.hashFile.empty()) hashes.emplace(options.hashFile);
+  FrameMaker frames(source, schedule);
 
-private:
-  AtomicFile file_;
-};
+  Progress progress(options.progress, schedule.frames(), schedule.seconds());
+  const auto bytes = [&] { return sink ? sink->bytesWritten() : 0; };
+  for (std::int64_t index = 0; index < schedule.frames(); ++index) {
+    throwIfInterrupted();
+    const Frame& frame = frames.make(index);
+    if (hashes) hashes->write(frames.hashLine());
+    if (sink) sink->write(frame, schedule.timing(index));
+    progress.update(index + 1, bytes());
+  }
+  throwIfInterrupted();
+  if (sink) sink->finish();
+  if (hashes) hashes->commit();
+  progress.finish(bytes());
 
-void printNotice(const std::string& notice) {
-  std::istringstream lines(notice);
-  for (std::string line; std::getline(lines, line);)
-    if (!line.empty()) fmt::print(stderr, "offstage: {}\n", line);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  return {schedule.frames(), schedule.seconds(), elapsed.count(), bytes()};
 }
 
 } // namespace
 
 RenderResult render(Source& source, const RenderOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
-  const bool resample = options.fps && !source.clock().isFixed();
-  const Schedule schedule(source.clock(), options.from, options.to, resample ? options.fps : std::nullopt);
-
-  Picture picture;
-  source.draw(picture);
-
-  // Everything that can be refused is refused here, before a frame costs time.
-  std::unique_ptr<Sink> sink;
-  std::string said; // of the sink's notice
-  if (!options.out.empty()) {
-    sink = makeSink(options.out, {picture.width, picture.height, picture.background.a != 255, schedule.fps(),
-                                  source.title()});
-    said = sink->notice();
-    printNotice(said);
-  }
-  std::optional<HashFile> hashes;
-  if (!options.hashFile.empty()) hashes.emplace(options.hashFile);
-  Canvas canvas(picture.width, picture.height);
-
-  Progress progress(options.progress, schedule.frames(), schedule.seconds());
-  const auto bytes = [&] { return sink ? sink->bytesWritten() : 0; };
-  Frame frame;
-  std::int64_t drawn = -1; // the simulated frame that `frame` shows; resampling may show one twice
-  for (std::int64_t index = 0; index < schedule.frames(); ++index) {
-    throwIfInterrupted();
-    const std::int64_t wanted = schedule.simulated(index);
-    while (source.frame() < wanted) source.step();
-    if (wanted != drawn) {
-      source.draw(picture);
-      canvas.draw(picture, frame);
-      drawn = wanted;
-    }
-    if (hashes) hashes->write(wanted, source.stateHash(), frame.hash());
-    if (sink) sink->write(frame, schedule.timing(index));
-    progress.update(index + 1, bytes());
-  }
-  throwIfInterrupted();
-  if (sink) {
-    sink->finish();
-    printNotice(sink->notice().substr(said.size())); // what only the whole told
-  }
-  if (hashes) hashes->finish();
-  progress.finish(bytes());
-
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  return {schedule.frames(), schedule.seconds(), elapsed.count(), bytes()};
+  if (options.out.empty() || isStream(outputKind(options.out))) return renderStream(source, options);
+  return renderChunks(source, options);
 }
 
 void requireOutput(const RenderOptions& options) {
@@ -96,9 +68,11 @@ void requireOutput(const RenderOptions& options) {
 
 void printSummary(const RenderResult& result, const RenderOptions& options) {
   const std::filesystem::path& made = options.out.empty() ? options.hashFile : options.out;
-  std::string text = fmt::format("{}: {} frames, {:.3f} s, in {:.2f} s ({:.1f}x real time)", made.string(),
-                                 result.frames, result.seconds, result.elapsed,
-                                 result.elapsed > 0.0 ? result.seconds / result.elapsed : 0.0);
+  std::string text = made.string();
+  if (options.segment)
+    text += fmt::format(", segment {} of {}", options.segment->number, options.segment->count);
+  text += fmt::format(": {} frames, {:.3f} s, in {:.2f} s ({:.1f}x real time)", result.frames, result.seconds,
+                      result.elapsed, result.elapsed > 0.0 ? result.seconds / result.elapsed : 0.0);
   if (!options.out.empty()) text += fmt::format(", {} KiB", (result.bytes + 1023) / 1024);
   fmt::print(options.out == "-" ? stderr : stdout, "{}\n", text);
 }

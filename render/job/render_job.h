@@ -15,8 +15,15 @@ struct RenderResult {
   std::int64_t bytes = 0;
 };
 
-/// Steps `source` through the frames that the options ask for, draws each and hands it to the sink of
-/// options.out. `source` must be at frame 0. Throws Error; then nothing is left under the output's name.
+/// Steps `source` through the frames that the options ask for, draws each and makes options.out of them.
+/// `source` must be at frame 0. Raw outputs are written front to back in this process; all others are made in
+/// chunks, by options.jobs worker processes (workers.h), and finished chunks wait in OUT.parts until the
+/// whole is joined, checked and put under its name. Throws Error; then nothing is left under the output's
+/// name but pictures of a sequence, and the chunks in OUT.parts stay, so that the same call goes on from
+/// there. With options.segment the segment's chunks are left there for joinSegments (chunked_render.h).
+///
+/// Workers are forked: user code that runs in frames (an Exercise) runs in several processes, so what it
+/// prints may come twice. options.jobs = 0 forks none.
 RenderResult render(Source& source, const RenderOptions& options);
 
 /// Throws Error(BadInput) unless the options name something to make: an output or a hash file.

@@ -2,14 +2,23 @@
 
 #include "render/draw/picture.h"
 #include "render/job/progress.h"
+#include "render/output/quality.h"
 #include "src/scene/scene.h"
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace offstage {
+
+/// The I-th of N equal parts of an output's chunks.
+struct Segment {
+  std::int64_t number = 1; ///< 1 … count
+  std::int64_t count = 1;  ///< ≥ 1
+};
 
 /// What `offstage render` and a C++ exercise's command line ask for. Absent: as the scene or the exercise has
 /// it.
@@ -22,13 +31,25 @@ struct RenderOptions {
   std::optional<std::filesystem::path> dtLog;
   std::optional<std::int64_t> seed;
   std::optional<double> scale;    ///< output pixels per scene pixel
+  std::optional<Quality> quality; ///< nothing: the format's default
   std::filesystem::path hashFile; ///< a line a frame: `frame state-hash pixel-hash`; empty: none
+  /// Worker processes at a time; 0: everything in this process, without fork. Nothing: as many as there are
+  /// processors. The output's bytes do not depend on it. Raw outputs are written by this process alone.
+  std::optional<int> jobs;
+  std::optional<Segment> segment; ///< render only this part, and leave its chunks in OUT.parts for join
+  bool resume = true;             ///< use the chunks that an interrupted run of the same render has left
   ProgressMode progress = ProgressMode::Auto;
 
   [[nodiscard]] SceneOverrides sceneOverrides() const { return {fps, dtLog, duration, seed, scale}; }
 
   /// Where a pane of this size (px) lies on the output. `scale` is the scene's, already overridden.
   [[nodiscard]] Viewport viewport(double paneWidth, double paneHeight, double sceneScale) const;
+
+  /// The options that change what is drawn, each as a command line has it ("--fps=30"), in a fixed order.
+  [[nodiscard]] std::vector<std::string> drawingArguments() const;
 };
+
+constexpr int kMostJobs = 1024;
+constexpr std::int64_t kMostSegments = 100000;
 
 } // namespace offstage

@@ -1,5 +1,7 @@
 #include "render/job/scene_source.h"
 
+#include "render/job/fingerprint.h"
+
 namespace offstage {
 namespace {
 
@@ -8,13 +10,30 @@ std::variant<World, ReplayMotion> motionOf(const Scene& scene) {
   return World(scene.world);
 }
 
+void addPaint(Fingerprint& fingerprint, const Paint& paint) {
+  if (const auto* pattern = std::get_if<ImagePattern>(&paint)) fingerprint.addFile(pattern->file);
+}
+
+std::uint64_t fingerprintOf(const Scene& scene) {
+  Fingerprint fingerprint;
+  fingerprint.add(scene.text);
+  fingerprint.add(scene.clock);
+  for (const Look& look : scene.looks) {
+    if (look.fill) addPaint(fingerprint, *look.fill);
+    if (look.stroke) addPaint(fingerprint, look.stroke->paint);
+  }
+  if (scene.replay) fingerprint.addFile(scene.replay->trace.file);
+  return fingerprint.value();
+}
+
 } // namespace
 
 SceneSource::SceneSource(const Scene& scene, Viewport viewport)
     : clock_(scene.clock),
       title_(scene.title),
       motion_(motionOf(scene)),
-      painter_(viewport, scene.background) {
+      painter_(viewport, scene.background),
+      fingerprint_(fingerprintOf(scene)) {
   // The painter numbers looks as the scene does, so Body::look needs no translation.
   for (const Look& look : scene.looks) painter_.addLook(look);
 }

@@ -22,6 +22,7 @@ public:
   void step() override;
   void draw(Picture& picture) const override;
   [[nodiscard]] std::uint64_t stateHash() const override;
+  [[nodiscard]] std::uint64_t fingerprint() const override { return fingerprint_; }
 
   [[nodiscard]] double time() const; ///< s: of the present frame
   /// The bodies of the present frame in the order in which they are drawn. Valid until the next step.
@@ -33,6 +34,7 @@ private:
   std::string title_;
   std::variant<World, ReplayMotion> motion_; ///< simulated or replayed
   Painter painter_;
+  std::uint64_t fingerprint_; ///< of the scene's text, its clock and its images
 };
 
 } // namespace offstage

@@ -83,4 +83,8 @@ double Schedule::seconds() const {
   return static_cast<double>(startOf(frames_)) / 1e9;
 }
 
+Schedule scheduleOf(const Source& source, const RenderOptions& options) {
+  return {source.clock(), options.from, options.to, source.clock().isFixed() ? std::nullopt : options.fps};
+}
+
 } // namespace offstage

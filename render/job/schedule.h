@@ -1,5 +1,7 @@
 #pragma once
 
+#include "render/job/render_options.h"
+#include "render/job/source.h"
 #include "render/output/sink.h"
 #include "src/sim/clock.h"
 
@@ -38,5 +40,8 @@ private:
   std::int64_t originNs_ = 0; ///< ns: time of the output's start
   std::int64_t endNs_ = 0;    ///< ns: time of the output's end
 };
+
+/// The schedule that the options ask for; `fps` resamples only a recorded clock, a fixed one already has it.
+Schedule scheduleOf(const Source& source, const RenderOptions& options);
 
 } // namespace offstage

@@ -22,6 +22,9 @@ public:
   virtual void step() = 0;                              ///< to the next frame; frame() < clock().steps()
   virtual void draw(Picture& picture) const = 0;        ///< the present frame
   [[nodiscard]] virtual std::uint64_t stateHash() const = 0;
+  /// A hash of all that its frames are made from, but for the options of the command line and the program
+  /// itself: the same for two sources that show the same. Asked for at frame 0.
+  [[nodiscard]] virtual std::uint64_t fingerprint() const = 0;
 };
 
 } // namespace offstage

@@ -1,5 +1,7 @@
 #include "render/output/codecs.h"
 
+#include "render/output/video_codec.h"
+
 #include <fmt/format.h>
 
 extern "C" {
@@ -19,9 +21,10 @@ std::string version(const char* library, unsigned packed) {
 } // namespace
 
 std::vector<CodecStatus> codecStatus() {
-  std::vector<CodecStatus> codecs{{"libx264", ".mp4 .mkv .mov", "libavcodec59", false}};
-  for (CodecStatus& codec : codecs)
-    codec.present = avcodec_find_encoder_by_name(codec.encoder.c_str()) != nullptr;
+  std::vector<CodecStatus> codecs;
+  for (const CodecTraits& traits : allCodecs())
+    codecs.push_back({traits.encoder, traits.purpose, traits.package,
+                      avcodec_find_encoder_by_name(traits.encoder) != nullptr});
   return codecs;
 }
 

@@ -8,6 +8,11 @@
 
 namespace offstage {
 
+void requirePictureSize(int width, int height) {
+  if (width >= 1 && height >= 1) return;
+  throw Error(ExitCode::BadInput, fmt::format("a picture of {} × {} px cannot be written", width, height));
+}
+
 void requireWholeFrame(const Frame& frame) {
   if (frame.width < 1 || frame.height < 1) {
     throw Error(ExitCode::BadInput,
@@ -27,6 +32,19 @@ void requireFrameSize(const Frame& frame, int width, int height) {
     throw Error(ExitCode::BadInput, fmt::format("a frame of {} × {} px came to an output of {} × {} px",
                                                 frame.width, frame.height, width, height));
   }
+}
+
+void FrameOrder::require(const FrameTiming& timing) {
+  if (timing.index != next_)
+    throw Error(ExitCode::BadInput, fmt::format("frame {} came where frame {} was due", timing.index, next_));
+  if (timed_ && (timing.end < timing.start || timing.start < 0 || (!first_ && timing.start != end_))) {
+    throw Error(ExitCode::BadInput,
+                fmt::format("frame {} is shown from {} to {} ns, which does not follow the frame before it",
+                            timing.index, timing.start, timing.end));
+  }
+  ++next_;
+  first_ = false;
+  end_ = timing.end;
 }
 
 } // namespace offstage

@@ -14,7 +14,7 @@ namespace {
 
 /// Bytes gathered before they go to the file.
 constexpr int kBufferSize = 1 << 16;
-/// libavformat's .mkv counts in milliseconds.
+/// libavformat's .mkv and .webm count in milliseconds.
 constexpr AVRational kMatroskaTick{1, 1000};
 constexpr AVRational kMicrosecond{1, 1000000};
 /// The coarsest timescale that libavformat chooses for .mp4 by itself; finer ones serve players that compute
@@ -29,8 +29,14 @@ const char* formatName(Container container) {
     return "mov";
   case Container::Matroska:
     return "matroska";
+  case Container::WebM:
+    return "webm";
   }
   throw std::logic_error("unknown container");
+}
+
+bool isMatroska(Container container) {
+  return container == Container::Matroska || container == Container::WebM;
 }
 
 /// Ticks a second in which every multiple of the time base is a whole number.
@@ -43,11 +49,11 @@ int timescaleOf(AVRational timeBase) {
 } // namespace
 
 AVRational variableTimeBase(Container container) {
-  return container == Container::Matroska ? kMatroskaTick : kMicrosecond;
+  return isMatroska(container) ? kMatroskaTick : kMicrosecond;
 }
 
 bool holdsFrameRate(Container container, AVRational framesPerSecond) {
-  return container != Container::Matroska || av_cmp_q(framesPerSecond, av_inv_q(kMatroskaTick)) <= 0;
+  return !isMatroska(container) || av_cmp_q(framesPerSecond, av_inv_q(kMatroskaTick)) <= 0;
 }
 
 Muxer::Muxer(AtomicFile& file, const MuxerSettings& settings, const AVCodecParameters& stream)
@@ -70,14 +76,15 @@ Muxer::Muxer(AtomicFile& file, const MuxerSettings& settings, const AVCodecParam
   stream_ = libav::allocated(avformat_new_stream(format_.get(), nullptr));
   libav::check(avcodec_parameters_copy(stream_->codecpar, &stream), ExitCode::Transient,
                "cannot describe the video stream");
-  stream_->codecpar->codec_tag = 0; // the container's own
+  // The container's own; but ProRes names its variant there, and the encoder knows which.
+  if (stream.codec_id != AV_CODEC_ID_PRORES) stream_->codecpar->codec_tag = 0;
   stream_->time_base = settings.timeBase;
   stream_->avg_frame_rate = settings.frameRate;
   stream_->sample_aspect_ratio = stream.sample_aspect_ratio;
   if (!settings.title.empty()) av_dict_set(&format_->metadata, "title", settings.title.c_str(), 0);
 
   libav::Options options;
-  if (settings.container == Container::Matroska) {
+  if (isMatroska(settings.container)) {
     options.set("cues_to_front", "1");
   } else {
     const std::string scale = std::to_string(timescaleOf(settings.timeBase));

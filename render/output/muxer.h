@@ -12,10 +12,10 @@
 
 namespace offstage {
 
-enum class Container { Mp4, Mov, Matroska };
+enum class Container { Mp4, Mov, Matroska, WebM };
 
-/// The finest unit in which a container's timestamps are written, in s: 1/1000 for .mkv. .mp4 and .mov take
-/// any; frames of variable length get 1/1000000 there.
+/// The finest unit in which a container's timestamps are written, in s: 1/1000 for .mkv and .webm. .mp4 and
+/// .mov take any; frames of variable length get 1/1000000 there.
 AVRational variableTimeBase(Container container);
 
 /// Whether frames of this constant rate keep distinct timestamps in the container.

@@ -1,5 +1,6 @@
 #include "render/output/png.h"
 
+#include "render/output/byte_order.h"
 #include "render/output/frame_check.h"
 #include "src/sim/error.h"
 
@@ -39,14 +40,10 @@ constexpr std::size_t kChunkTail = 4;
 /// Everything but the compressed rows: the signature and the largest set of chunks, rounded up.
 constexpr std::size_t kMostOverhead = 128;
 
-void storeBigEndian(std::uint8_t* to, std::uint32_t value) {
-  for (int byte = 0; byte < 4; ++byte) to[byte] = static_cast<std::uint8_t>(value >> (24 - 8 * byte));
-}
-
 /// Appends chunks to a buffer that is large enough.
-class ChunkWriter {
+class PngChunks {
 public:
-  explicit ChunkWriter(std::uint8_t* to) : begin_(to), at_(to) {
+  explicit PngChunks(std::uint8_t* to) : begin_(to), at_(to) {
     std::memcpy(at_, kSignature.data(), kSignature.size());
     at_ += kSignature.size();
   }
@@ -100,30 +97,49 @@ struct PngEncoder::Compressor {
 PngEncoder::PngEncoder() : compressor_(std::make_unique<Compressor>()) {}
 PngEncoder::~PngEncoder() = default;
 
+void PngEncoder::pack(const Frame& frame, bool alpha) {
+  const PixelRect whole{0, 0, frame.width, frame.height};
+  const auto height = static_cast<std::size_t>(frame.height);
+  const std::size_t rowBytes = 1 + static_cast<std::size_t>(frame.width) * (alpha ? 4 : 3);
+  const bool kept = alpha == packedAlpha_ && rows_.size() == height * rowBytes;
+  if (kept && frame.id != 0 && frame.id == packed_) return;
+  if (kept && frame.base != 0 && frame.base == packed_) {
+    for (const PixelRect& rect : frame.damage) pack(frame, alpha, rect);
+  } else {
+    rows_.resize(height * rowBytes);
+    for (std::size_t row = 0; row < height; ++row) rows_[row * rowBytes] = kFilterNone;
+    pack(frame, alpha, whole);
+  }
+  packed_ = frame.id;
+  packedAlpha_ = alpha;
+}
+
+void PngEncoder::pack(const Frame& frame, bool alpha, const PixelRect& rect) {
+  const auto width = static_cast<std::size_t>(frame.width);
+  const std::size_t channels = alpha ? 4 : 3;
+  const auto left = static_cast<std::size_t>(rect.left);
+  const auto pixels = static_cast<std::size_t>(rect.right - rect.left);
+  for (auto row = static_cast<std::size_t>(rect.top); row < static_cast<std::size_t>(rect.bottom); ++row) {
+    const std::uint8_t* from = frame.rgba.data() + (row * width + left) * 4;
+    std::uint8_t* to = rows_.data() + row * (1 + width * channels) + 1 + left * channels;
+    if (alpha) {
+      std::memcpy(to, from, pixels * 4);
+    } else {
+      packRgb(from, to, pixels);
+    }
+  }
+}
+
 std::span<const std::uint8_t> PngEncoder::encode(const Frame& frame, bool alpha, int dotsPerMetre) {
   requireWholeFrame(frame);
   if (dotsPerMetre < 0) throw Error(ExitCode::BadInput, "a PNG's resolution must not be negative");
 
-  const auto width = static_cast<std::size_t>(frame.width);
-  const auto height = static_cast<std::size_t>(frame.height);
-  const std::size_t rowBytes = 1 + width * (alpha ? 4 : 3);
-  rows_.resize(height * rowBytes);
-  for (std::size_t y = 0; y < height; ++y) {
-    const std::uint8_t* pixels = frame.rgba.data() + y * width * 4;
-    std::uint8_t* row = rows_.data() + y * rowBytes;
-    row[0] = kFilterNone;
-    if (alpha) {
-      std::memcpy(row + 1, pixels, width * 4);
-    } else {
-      packRgb(pixels, row + 1, width);
-    }
-  }
-
+  pack(frame, alpha);
   const std::size_t bound = libdeflate_zlib_compress_bound(compressor_->handle, rows_.size());
   if (bound > 0x7FFFFFFFU)
     throw Error(ExitCode::BadInput, "the picture is too large for a PNG of one IDAT chunk (2 GiB)");
   file_.resize(kMostOverhead + bound);
-  ChunkWriter chunks(file_.data());
+  PngChunks chunks(file_.data());
 
   std::uint8_t* header = chunks.data();
   storeBigEndian(header, static_cast<std::uint32_t>(frame.width));

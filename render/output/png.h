@@ -26,8 +26,14 @@ public:
 
 private:
   struct Compressor;
+  /// Puts the frame into rows_: only its damage when they still hold its base.
+  void pack(const Frame& frame, bool alpha);
+  void pack(const Frame& frame, bool alpha, const PixelRect& rect);
+
   std::unique_ptr<Compressor> compressor_;
   std::vector<std::uint8_t> rows_; ///< the filter byte and the pixels of every row
+  std::uint64_t packed_ = 0;       ///< id of the frame that rows_ holds; 0: none that can be told
+  bool packedAlpha_ = false;
   std::vector<std::uint8_t> file_;
 };
 

@@ -88,20 +88,30 @@ private:
 
   void compareStream() {
     const AVCodecParameters& stream = *stream_->codecpar;
-    compare("codec", std::string_view(avcodec_get_name(stream.codec_id)), std::string_view("h264"));
-    compare("profile", nameOr(avcodec_profile_name(stream.codec_id, stream.profile)),
-            std::string_view("High"));
+    const CodecTraits& traits = traitsOf(expected_.codec);
+    compare("codec", std::string_view(avcodec_get_name(stream.codec_id)), std::string_view(traits.decoded));
+    if (traits.profile != nullptr)
+      compare("profile", nameOr(avcodec_profile_name(stream.codec_id, stream.profile)),
+              std::string_view(traits.profile));
     compare("width", stream.width, expected_.width);
     compare("height", stream.height, expected_.height);
     compare("pixel format", nameOr(av_get_pix_fmt_name(static_cast<AVPixelFormat>(stream.format))),
-            std::string_view("yuv420p"));
-    compare("primaries", nameOr(av_color_primaries_name(stream.color_primaries)), std::string_view("bt709"));
-    compare("transfer", nameOr(av_color_transfer_name(stream.color_trc)), std::string_view("bt709"));
-    compare("matrix", nameOr(av_color_space_name(stream.color_space)), std::string_view("bt709"));
-    compare("range", nameOr(av_color_range_name(stream.color_range)), std::string_view("tv"));
-    compare("chroma location", nameOr(av_chroma_location_name(stream.chroma_location)),
-            std::string_view("left"));
+            std::string_view(av_get_pix_fmt_name(traits.read)));
+    compareColour(stream, traits);
     compareTime("duration", format_->duration, kLibavTick, expected_.end);
+  }
+
+  void compareColour(const AVCodecParameters& stream, const CodecTraits& traits) {
+    compare("primaries", nameOr(av_color_primaries_name(stream.color_primaries)), std::string_view("bt709"));
+    compare("transfer", nameOr(av_color_transfer_name(stream.color_trc)),
+            std::string_view(traits.rgb ? "iec61966-2-1" : "bt709"));
+    compare("matrix", nameOr(av_color_space_name(stream.color_space)),
+            std::string_view(traits.rgb ? "gbr" : "bt709"));
+    compare("range", nameOr(av_color_range_name(stream.color_range)),
+            std::string_view(traits.rgb ? "pc" : "tv"));
+    if (traits.subsampled)
+      compare("chroma location", nameOr(av_chroma_location_name(stream.chroma_location)),
+              std::string_view("left"));
   }
 
   void compareTime(std::string_view what, std::int64_t found, AVRational foundBase, std::int64_t wanted) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/output/libav.h"
+#include "render/output/video_codec.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -9,8 +10,9 @@ namespace offstage {
 
 /// What a finished video must be.
 struct ExpectedVideo {
-  int width = 0;  ///< px, even
-  int height = 0; ///< px, even
+  VideoCodec codec = VideoCodec::H264;
+  int width = 0;  ///< px
+  int height = 0; ///< px
   std::int64_t frames = 0;
   AVRational timeBase{0, 1};  ///< s: the unit of the two times
   std::int64_t lastStart = 0; ///< when the last frame begins; the first begins at 0
@@ -18,10 +20,10 @@ struct ExpectedVideo {
 };
 
 /// Reopens a video file, reads all of it, decodes its first and its last frame, and compares what it finds
-/// with what it must be: H.264, High, yuv420p, BT.709 in limited range, chroma sited left; the number of
-/// frames, their size, the time of the first and the last, and the duration (to one tick of the file, or a
-/// millisecond where that is finer). Throws Error(Transient) that lists every difference; `name` is what
-/// messages call the file.
+/// with what it must be: codec, profile, pixel format and colour (H.264: High, yuv420p, BT.709 in limited
+/// range, chroma sited left); the number of frames, their size, the time of the first and the last, and the
+/// duration (to one tick of the file, or a millisecond where that is finer). Throws Error(Transient) that
+/// lists every difference; `name` is what messages call the file.
 void verifyVideo(const std::filesystem::path& file, const ExpectedVideo& expected,
                  const std::filesystem::path& name);
 

@@ -93,28 +93,52 @@ void convertChromaRow(const std::uint16_t* __restrict red, const std::uint16_t* 
 
 void Yuv420Converter::convert(const Frame& frame, const Yuv420Planes& planes) {
   requireWholeFrame(frame);
-  const auto width = static_cast<std::size_t>(frame.width);
   const auto evenWidth = static_cast<std::size_t>(evenSize(frame.width));
   for (auto* sums : {&red_, &green_, &blue_}) sums->resize(evenWidth + 2);
+  if (frame.id != 0 && frame.id == converted_) return; // shown twice
+  if (frame.base != 0 && frame.base == converted_) {
+    for (const PixelRect& rect : frame.damage) convert(frame, planes, affected(frame, rect));
+  } else {
+    convert(frame, planes, {0, 0, evenSize(frame.width), evenSize(frame.height)});
+  }
+  converted_ = frame.id;
+}
 
-  for (int row = 0; row < evenSize(frame.height); row += 2) {
+PixelRect Yuv420Converter::affected(const Frame& frame, const PixelRect& damage) {
+  // A chroma sample on column 2i takes from 2i − 1 to 2i + 1, so a pixel counts on both sides of it.
+  return {damage.left / 2 * 2, damage.top / 2 * 2, std::min(damage.right / 2 * 2 + 2, evenSize(frame.width)),
+          std::min(evenSize(damage.bottom), evenSize(frame.height))};
+}
+
+void Yuv420Converter::convert(const Frame& frame, const Yuv420Planes& planes, const PixelRect& rect) {
+  const auto width = static_cast<std::size_t>(frame.width);
+  const auto left = static_cast<std::size_t>(rect.left);
+  const auto right = static_cast<std::size_t>(rect.right);
+  const std::size_t end = std::min(right, width); // of the columns that the frame has
+  const std::size_t sumsBegin = left == 0 ? 0 : left - 1;
+  const std::size_t sumsEnd = std::min(right + 1, width);
+  for (int row = rect.top; row < rect.bottom; row += 2) {
     const std::uint8_t* upper = frame.rgba.data() + static_cast<std::size_t>(row) * width * 4;
     const std::uint8_t* lower = row + 1 < frame.height ? upper + width * 4 : upper;
     std::uint8_t* y = planes.y + row * planes.yStride;
-    convertLumaRow(upper, y, width);
-    convertLumaRow(lower, y + planes.yStride, width);
-    if (evenWidth != width) {
-      for (std::uint8_t* luma : {y, y + planes.yStride}) luma[width] = luma[width - 1];
+    convertLumaRow(upper + 4 * left, y + left, end - left);
+    convertLumaRow(lower + 4 * left, y + planes.yStride + left, end - left);
+    if (end < right) {
+      for (std::uint8_t* luma : {y, y + planes.yStride}) luma[end] = luma[end - 1];
     }
 
-    sumRows(upper, lower, red_.data() + 1, green_.data() + 1, blue_.data() + 1, width);
+    sumRows(upper + 4 * sumsBegin, lower + 4 * sumsBegin, red_.data() + 1 + sumsBegin,
+            green_.data() + 1 + sumsBegin, blue_.data() + 1 + sumsBegin, sumsEnd - sumsBegin);
     for (auto* sums : {&red_, &green_, &blue_}) {
-      sums->front() = (*sums)[1];
-      std::fill(sums->begin() + static_cast<std::ptrdiff_t>(width) + 1, sums->end(), (*sums)[width]);
+      if (left == 0) sums->front() = (*sums)[1];
+      if (right + 1 > width)
+        std::fill(sums->begin() + static_cast<std::ptrdiff_t>(width) + 1, sums->end(), (*sums)[width]);
     }
+    const std::ptrdiff_t chroma = rect.left / 2;
     const std::ptrdiff_t chromaRow = row / 2;
-    convertChromaRow(red_.data(), green_.data(), blue_.data(), planes.u + chromaRow * planes.uStride,
-                     planes.v + chromaRow * planes.vStride, evenWidth / 2);
+    convertChromaRow(red_.data() + left, green_.data() + left, blue_.data() + left,
+                     planes.u + chromaRow * planes.uStride + chroma,
+                     planes.v + chromaRow * planes.vStride + chroma, (right - left) / 2);
   }
 }
 

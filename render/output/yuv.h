@@ -38,9 +38,16 @@ constexpr int evenSize(int size) {
 /// the nearest column counts. An odd width or height is padded by repeating the last column or row.
 class Yuv420Converter {
 public:
+  /// Of a frame whose `base` is the frame that was converted before, only what is damaged: the planes must
+  /// still hold that one.
   void convert(const Frame& frame, const Yuv420Planes& planes);
 
 private:
+  /// The pixels, from even to even, whose conversion depends on the damaged ones.
+  static PixelRect affected(const Frame& frame, const PixelRect& damage);
+  void convert(const Frame& frame, const Yuv420Planes& planes, const PixelRect& rect);
+
+  std::uint64_t converted_ = 0; ///< id of the frame that the planes hold; 0: none that can be told
   /// Sums of two rows of one channel, with a column more at either end.
   std::vector<std::uint16_t> red_;
   std::vector<std::uint16_t> green_;

@@ -1,5 +1,6 @@
 #include "render/stage/stage_source.h"
 
+#include "render/job/fingerprint.h"
 #include "src/scene/dt_log.h"
 #include "src/sim/error.h"
 #include "src/sim/state_hash.h"
@@ -72,6 +73,12 @@ std::uint64_t StageSource::stateHash() const {
     hash.add(entry.id, node.shape, node.position, node.velocity, node.radius, node.size);
   }
   return hash.value();
+}
+
+std::uint64_t StageSource::fingerprint() const {
+  Fingerprint fingerprint;
+  fingerprint.add(clock_);
+  return fingerprint.value();
 }
 
 void StageSource::prepareLooks() {

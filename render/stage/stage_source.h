@@ -22,6 +22,8 @@ public:
   void step() override;
   void draw(Picture& picture) const override;
   [[nodiscard]] std::uint64_t stateHash() const override;
+  /// Of the clock alone: all else of an exercise is the program and its options.
+  [[nodiscard]] std::uint64_t fingerprint() const override;
 
 private:
   /// Gives every shape whose look is new or has changed its place among the painter's looks.

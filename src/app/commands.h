@@ -13,6 +13,7 @@ using Action = std::function<int()>;
 
 /// Each adds one verb with its options to `app`; when that verb is called, `action` is set to what it does.
 void addRender(CLI::App& app, Action& action);
+void addJoin(CLI::App& app, Action& action);
 void addStill(CLI::App& app, Action& action);
 void addTrace(CLI::App& app, Action& action);
 void addDiff(CLI::App& app, Action& action);

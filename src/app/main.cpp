@@ -44,6 +44,7 @@ int main(int argc, char** argv) {
 
   offstage::Action action;
   offstage::addRender(app, action);
+  offstage::addJoin(app, action);
   offstage::addStill(app, action);
   offstage::addTrace(app, action);
   offstage::addDiff(app, action);

@@ -123,6 +123,7 @@ Scene parseScene(std::string_view text, const std::filesystem::path& file, const
   builder.errors.throwIfAny();
   if (builder.scene.world.groups.empty()) builder.scene.world.groups = WorldSetup{}.groups;
   builder.scene.looks = builder.looks.take();
+  builder.scene.text = text;
   return std::move(builder.scene);
 }
 

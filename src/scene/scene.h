@@ -20,6 +20,7 @@ namespace offstage {
 /// A scene with every name, unit, default and reference resolved. Later stages look nothing up.
 struct Scene {
   std::filesystem::path file;        ///< as given; for messages
+  std::string text{};                ///< the TOML that it was read from
   std::string title;                 ///< default: the file's stem
   std::array<int, 2> size{640, 480}; ///< px: the pane, also WorldSetup::pane
   Color background{255, 255, 255, 1.0};

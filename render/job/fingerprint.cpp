@@ -1,0 +1,33 @@
+#include "render/job/fingerprint.h"
+
+#include "src/sim/clock.h"
+
+#include <bit>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace offstage {
+
+void Fingerprint::add(std::string_view text) {
+  add(static_cast<std::int64_t>(text.size()));
+  hash_.add(text.data(), text.size());
+}
+
+void Fingerprint::add(std::int64_t number) {
+  hash_.add(&number, sizeof number);
+}
+
+void Fingerprint::add(const Clock& clock) {
+  add(clock.steps());
+  add(std::bit_cast<std::int64_t>(clock.fps()));
+  for (std::int64_t frame = 0; !clock.isFixed() && frame <= clock.steps(); ++frame)
+    add(clock.nanoseconds(frame));
+}
+
+void Fingerprint::addFile(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  add(std::string(std::istreambuf_iterator<char>(stream), {}));
+}
+
+} // namespace offstage

@@ -1,0 +1,16 @@
+#include "render/job/notice.h"
+
+#include <cstdio>
+#include <sstream>
+
+#include <fmt/format.h>
+
+namespace offstage {
+
+void printNotice(const std::string& notice) {
+  std::istringstream lines(notice);
+  for (std::string line; std::getline(lines, line);)
+    if (!line.empty()) fmt::print(stderr, "offstage: {}\n", line);
+}
+
+} // namespace offstage

@@ -1,0 +1,145 @@
+#include "render/output/video_codec.h"
+
+#include "render/output/file_error.h"
+#include "render/output/output_kind.h"
+
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace offstage {
+namespace {
+
+// H.264, chosen on workload R of the bench (N moving opaque circles, 1920 × 1080, white; x264 0.164, one
+// thread). Each row: CPU ms a frame | bytes a frame | SSIM against the frames before encoding; chunks as a
+// clip of 300 frames (N = 10), 120 and 60 frames has them.
+//   settings                                  N = 10               N = 1000              N = 10000
+//   veryfast crf 20                           15.6 |  824 | .99954  52.7 | 33718 | .98594  98.6 | 217265 |
+//   .94669
+//   + subme=1 b-adapt=0, crf 18               12.4 | 1082 | .99963  38.6 | 44954 | .98926  72.6 | 270263 |
+//   .96148
+//   + subme=1 b-adapt=0 rc-lookahead=20       11.6 |  931 | .99958  33.2 | 38652 | .98689  60.1 | 226267 |
+//   .95000
+//   + the same, weightp=0 direct=temporal
+//     bframes=4                               10.9 |  843 | .99954  31.2 | 35869 | .98656  67.7 | 223446 |
+//     .94890  <-
+//   + bframes=8 b-adapt=0 rc-lookahead=10
+//     crf 19                                  12.4 |  775 | .99954  49.5 | 36493 | .98531 100.4 | 243878 |
+//     .94883
+//   superfast, b-adapt=0 bframes=8             8.3 | 1575 | .99976  22.8 | 44525 | .98261  50.3 | 190661 |
+//   .91541
+// Where a frame's position is between its neighbours', as with bodies that move on, the temporal prediction
+// of B-frames is exact; weights, which help with fades, cost time. Psychovisual optimisation does nothing
+// below subme 6. cpu-independent: else x264 chooses some algorithms by the processor, and the bytes with
+// them.
+constexpr const char* kX264Good = "subme=1:b-adapt=0:bframes=2:b-pyramid=none:weightp=0:direct=temporal:rc-"
+                                  "lookahead=5:qcomp=0.7:cpu-independent=1";
+
+const std::vector<CodecTraits> kCodecs{
+    {VideoCodec::H264, "libx264", ".mp4 .mkv .mov", "libavcodec59", "H.264", false, true, 16384, "h264",
+     "High", AV_PIX_FMT_YUV420P, AV_PIX_FMT_NONE, AV_PIX_FMT_YUV420P},
+    {VideoCodec::H264Rgb, "libx264rgb", "lossless .mkv", "libavcodec59", "lossless H.264", true, false, 16384,
+     "h264", "High 4:4:4 Predictive", AV_PIX_FMT_BGR0, AV_PIX_FMT_NONE, AV_PIX_FMT_GBRP},
+    {VideoCodec::Vp9, "libvpx-vp9", ".webm", "libavcodec59", "VP9", false, true, 16384, "vp9", "Profile 0",
+     AV_PIX_FMT_YUV420P, AV_PIX_FMT_YUVA420P, AV_PIX_FMT_YUV420P},
+    {VideoCodec::ProRes, "prores_ks", "transparent .mov", "libavcodec59", "ProRes 4444", false, false, 16384,
+     "prores", "4444", AV_PIX_FMT_NONE, AV_PIX_FMT_YUVA444P10, AV_PIX_FMT_YUVA444P12},
+    {VideoCodec::Ffv1, "ffv1", "transparent lossless .mkv", "libavcodec59", "FFV1", true, false, 16384,
+     "ffv1", nullptr, AV_PIX_FMT_NONE, AV_PIX_FMT_BGRA, AV_PIX_FMT_BGRA},
+};
+
+[[noreturn]] void refuseLossless(const std::filesystem::path& out, const char* ending) {
+  throw Error(
+      ExitCode::BadInput,
+      fmt::format("{}: a {} has no lossless quality; use .mkv with --quality lossless, .apng, a PNG sequence "
+                  "(frames/%06d.png) or .raw",
+                  quoted(out), ending));
+}
+
+using OptionList = std::vector<std::pair<std::string, std::string>>;
+
+OptionList h264Options(Quality quality) {
+  switch (quality) {
+  case Quality::Draft:
+    return {{"preset", "superfast"}, {"profile", "high"}, {"crf", "26"}, {"x264-params", kX264Good}};
+  case Quality::Good:
+    return {{"preset", "veryfast"}, {"profile", "high"}, {"crf", "20.3"}, {"x264-params", kX264Good}};
+  case Quality::High:
+    return {{"preset", "medium"}, {"profile", "high"}, {"crf", "14"}, {"x264-params", "cpu-independent=1"}};
+  case Quality::Lossless:
+    break;
+  }
+  throw std::logic_error("H.264 in yuv420p is not lossless");
+}
+
+OptionList vp9Options(Quality quality, bool alpha) {
+  // Constant quality (crf with b=0). Threads and tiles would change the bytes with the machine. The encoder's
+  // alternate reference frames do not go with transparency.
+  OptionList options{{"b", "0"},         {"row-mt", "0"},         {"tile-columns", "0"},
+                     {"tile-rows", "0"}, {"lag-in-frames", "16"}, {"auto-alt-ref", alpha ? "0" : "1"}};
+  const auto set = [&options](const char* deadline, const char* speed, const char* crf) {
+    options.insert(options.end(), {{"deadline", deadline}, {"cpu-used", speed}, {"crf", crf}});
+  };
+  if (quality == Quality::Draft)
+    set("realtime", "8", "40");
+  else if (quality == Quality::Good)
+    set("good", "5", "30");
+  else
+    set("good", "3", "20");
+  return options;
+}
+
+} // namespace
+
+const std::vector<CodecTraits>& allCodecs() {
+  return kCodecs;
+}
+
+const CodecTraits& traitsOf(VideoCodec codec) {
+  return kCodecs.at(static_cast<std::size_t>(codec));
+}
+
+VideoCodec chooseCodec(const std::filesystem::path& out, Container container, bool alpha, Quality quality) {
+  const bool lossless = quality == Quality::Lossless;
+  switch (container) {
+  case Container::Mp4:
+    if (alpha) refuseTransparency(out, "H.264 in .mp4");
+    if (lossless) refuseLossless(out, ".mp4");
+    return VideoCodec::H264;
+  case Container::Mov:
+    if (lossless) refuseLossless(out, ".mov");
+    return alpha ? VideoCodec::ProRes : VideoCodec::H264;
+  case Container::WebM:
+    if (lossless) refuseLossless(out, ".webm");
+    return VideoCodec::Vp9;
+  case Container::Matroska:
+    if (lossless) return alpha ? VideoCodec::Ffv1 : VideoCodec::H264Rgb;
+    if (alpha) refuseTransparency(out, "H.264 in .mkv");
+    return VideoCodec::H264;
+  }
+  throw std::logic_error("unknown container");
+}
+
+OptionList optionsOf(VideoCodec codec, Quality quality, bool alpha) {
+  switch (codec) {
+  case VideoCodec::H264:
+    return h264Options(quality);
+  case VideoCodec::H264Rgb:
+    return {
+        {"preset", "veryfast"}, {"qp", "0"}, {"x264-params", "b-adapt=0:rc-lookahead=10:cpu-independent=1"}};
+  case VideoCodec::Vp9:
+    return vp9Options(quality, alpha);
+  case VideoCodec::ProRes:
+    return {{"profile", "4444"},
+            {"vendor", "apl0"}, // what editing programs ask for before they read the alpha plane
+            {"alpha_bits", "16"},
+            {"global_quality", std::to_string(FF_QP2LAMBDA * (quality == Quality::Draft  ? 12
+                                                              : quality == Quality::Good ? 4
+                                                                                         : 1))}};
+  case VideoCodec::Ffv1:
+    return {{"level", "3"}, {"slicecrc", "1"}, {"slices", "4"}, {"g", "1"}};
+  }
+  throw std::logic_error("unknown codec");
+}
+
+} // namespace offstage
