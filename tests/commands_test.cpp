@@ -19,8 +19,8 @@ using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
 TEST(Commands, HelpOfEveryVerbGoesToStdoutWithStatus0) {
-  for (const std::vector<std::string>& verb :
-       std::vector<std::vector<std::string>>{{}, {"render"}, {"still"}, {"trace"}, {"check"}, {"doctor"}}) {
+  for (const std::vector<std::string>& verb : std::vector<std::vector<std::string>>{
+           {}, {"render"}, {"still"}, {"trace"}, {"diff"}, {"check"}, {"doctor"}}) {
     std::vector<std::string> arguments = verb;
     arguments.emplace_back("--help");
     const ProcessResult result = offstage(arguments);

@@ -104,12 +104,21 @@ const BitPlane& Comparer::ignoredFor(int width, int height) {
   return ignored_;
 }
 
-void Comparer::measure(const PixelRows& expected, const PixelRows& actual, const BitPlane& ignored,
+void Comparer::measure(const PixelRows& expectedRows, const PixelRows& actualRows, const BitPlane& ignored,
                        Comparison& result) const {
   const bool all = metrics_ == Metrics::All;
   if (!all && !tolerance_.flipMax && !tolerance_.ssimMin) return;
-  const IgnoringRows without(actual, expected, ignored);
-  const PixelRows& seen = ignored.empty() ? actual : without;
+  // Measures read rows many times over; converted ones are kept where 8 bits are all there is.
+  std::optional<FrameRows> keptExpected;
+  std::optional<FrameRows> keptActual;
+  const auto kept = [](const PixelRows& rows, std::optional<FrameRows>& frame) -> const PixelRows& {
+    if (rows.deep() || rows.layout() == kRgba8Layout) return rows;
+    return frame.emplace(toFrame(rows));
+  };
+  const PixelRows& expected = kept(expectedRows, keptExpected);
+  const IgnoringRows without(actualRows, expectedRows, ignored);
+  const bool same = &expectedRows == &actualRows;
+  const PixelRows& seen = same ? expected : kept(ignored.empty() ? actualRows : without, keptActual);
   if (all || tolerance_.ssimMin) result.ssim = meanSsim(expected, seen, threads_);
   if (all || tolerance_.flipMax) result.flip = poolFlip(flipMap(expected, seen, threads_));
   if (!all) return;

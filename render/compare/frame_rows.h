@@ -13,6 +13,7 @@ class FrameRows final : public PixelRows {
 public:
   explicit FrameRows(const Frame& frame) : frame_(frame) {} ///< the frame must outlive it
   explicit FrameRows(Frame&& frame) : own_(std::move(frame)), frame_(own_) {}
+  ~FrameRows() override = default;
 
   [[nodiscard]] int width() const override { return frame_.width; }
   [[nodiscard]] int height() const override { return frame_.height; }
@@ -25,10 +26,7 @@ public:
     const std::size_t bytes = 4UL * static_cast<std::size_t>(frame_.width);
     return {frame_.rgba.data() + static_cast<std::size_t>(y) * bytes, bytes};
   }
-  [[nodiscard]] const std::string& layout() const override {
-    static const std::string kRgba8 = "rgba8"; // as PngPicture names it
-    return kRgba8;
-  }
+  [[nodiscard]] const std::string& layout() const override { return kRgba8Layout; }
 
 private:
   Frame own_;

@@ -59,7 +59,7 @@ void writeText(std::ostream& out, const Report& report) {
   writeNumbers(out, report.numbers);
   for (const ReportCase& one : report.cases) {
     if (!single) {
-      if (one.passed) continue;
+      if (one.passed && one.lines.empty()) continue;
       out << one.name << ": " << one.verdict << '\n';
     }
     for (const std::string& line : one.lines) out << "  " << line << '\n';

@@ -1,5 +1,6 @@
 #include "render/compare/video_reader.h"
 
+#include "render/compare/yuv_rows.h"
 #include "render/output/file_error.h"
 
 #include <cstring>
@@ -13,6 +14,12 @@ extern "C" {
 }
 
 namespace offstage {
+namespace {
+
+/// From so many rows on a video that names no matrix is taken for BT.709.
+constexpr int kHighDefinition = 720;
+
+} // namespace
 
 VideoReader::VideoReader(const std::filesystem::path& file, std::int64_t maxPixels, int threads)
     : file_(file), maxPixels_(maxPixels), packet_(libav::makePacket()) {
@@ -139,7 +146,28 @@ struct VideoConverter::Scaler {
 VideoConverter::VideoConverter() : scaler_(std::make_unique<Scaler>()) {}
 VideoConverter::~VideoConverter() = default;
 
-Frame VideoConverter::convert(const VideoPicture& picture) {
+const Frame& VideoConverter::convert(const VideoPicture& picture) {
+  const AVFrame& from = *picture.frame;
+  const bool matrixKnown = from.colorspace == AVCOL_SPC_BT709 || from.colorspace == AVCOL_SPC_BT470BG ||
+                           from.colorspace == AVCOL_SPC_SMPTE170M || from.colorspace == AVCOL_SPC_UNSPECIFIED;
+  const bool leftChroma =
+      from.chroma_location == AVCHROMA_LOC_LEFT || from.chroma_location == AVCHROMA_LOC_UNSPECIFIED;
+  const bool usual = from.format == AV_PIX_FMT_YUV420P || from.format == AV_PIX_FMT_YUVJ420P;
+  if (!usual || !matrixKnown || !leftChroma) {
+    scale(picture);
+    return frame_;
+  }
+  // What nearly every video is, several times faster than swscale's exact way.
+  const bool full = from.color_range == AVCOL_RANGE_JPEG || from.format == AV_PIX_FMT_YUVJ420P;
+  const bool high = from.colorspace == AVCOL_SPC_BT709 ||
+                    (from.colorspace == AVCOL_SPC_UNSPECIFIED && from.height >= kHighDefinition);
+  toRgba({from.width, from.height, from.data[0], from.data[1], from.data[2], from.linesize[0],
+          from.linesize[1], from.linesize[2], full, high},
+         frame_);
+  return frame_;
+}
+
+void VideoConverter::scale(const VideoPicture& picture) {
   const AVFrame& from = *picture.frame;
   // Exact rather than fast: chroma is interpolated, and every step rounds.
   constexpr int kFlags = SWS_BILINEAR | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT | SWS_BITEXACT;
@@ -150,21 +178,18 @@ Frame VideoConverter::convert(const VideoPicture& picture) {
     throw Error(ExitCode::BadInput,
                 fmt::format("pictures in the pixel format {} cannot be compared",
                             av_get_pix_fmt_name(static_cast<AVPixelFormat>(from.format))));
-  constexpr int kHighDefinition = 720; // rows
   const bool named = from.colorspace != AVCOL_SPC_UNSPECIFIED && from.colorspace != AVCOL_SPC_RGB;
   const int unnamed = from.height >= kHighDefinition ? SWS_CS_ITU709 : SWS_CS_ITU601;
   const int* matrix = sws_getCoefficients(named ? static_cast<int>(from.colorspace) : unnamed);
   constexpr int kOne = 1 << 16; // contrast and saturation as they are
   sws_setColorspaceDetails(scaler_->context, matrix, from.color_range == AVCOL_RANGE_JPEG ? 1 : 0,
                            sws_getCoefficients(SWS_CS_ITU709), 1, 0, kOne, kOne);
-  Frame frame;
-  frame.width = from.width;
-  frame.height = from.height;
-  frame.rgba.resize(4UL * static_cast<std::size_t>(from.width) * static_cast<std::size_t>(from.height));
-  std::uint8_t* const to[] = {frame.rgba.data()};
+  frame_.width = from.width;
+  frame_.height = from.height;
+  frame_.rgba.resize(4UL * static_cast<std::size_t>(from.width) * static_cast<std::size_t>(from.height));
+  std::uint8_t* const to[] = {frame_.rgba.data()};
   const int stride[] = {4 * from.width};
   sws_scale(scaler_->context, from.data, from.linesize, 0, from.height, to, stride);
-  return frame;
 }
 
 } // namespace offstage

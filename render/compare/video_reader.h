@@ -60,11 +60,13 @@ public:
   VideoConverter& operator=(const VideoConverter&) = delete;
 
   /// By the matrix and the range that the video names; where it names none, BT.709 from 720 rows on and
-  /// BT.601 below, limited range.
-  Frame convert(const VideoPicture& picture);
+  /// BT.601 below, limited range. Valid until the next call.
+  const Frame& convert(const VideoPicture& picture);
 
 private:
   struct Scaler;
+  void scale(const VideoPicture& picture);
+  Frame frame_;
   std::unique_ptr<Scaler> scaler_;
 };
 

@@ -6,6 +6,9 @@
 
 namespace offstage {
 
+/// The layout() of pictures that store RGBA, 8 bits a channel.
+inline const std::string kRgba8Layout = "rgba8";
+
 /// A decoded picture that keeps its pixels as its file has them and hands out single rows as RGBA. A picture
 /// of 4096 × 4096 px in RGB so takes 48 MiB and not 64, and rows that two pictures store alike need not be
 /// converted to be found equal.

@@ -205,7 +205,7 @@ void PngPicture::describeLayout() {
   if (header.color == Color::Palette) layout_.append(chunks_.palette.begin(), chunks_.palette.end());
   layout_ += '/';
   layout_.append(chunks_.transparency.begin(), chunks_.transparency.end());
-  if (header.color == Color::Rgba && header.depth == 8) layout_ = "rgba8";
+  if (header.color == Color::Rgba && header.depth == 8) layout_ = kRgba8Layout;
 }
 
 std::span<const std::uint8_t> PngPicture::stored(int y) const {

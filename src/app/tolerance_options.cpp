@@ -79,8 +79,10 @@ void addToleranceOptions(CLI::App& app, ToleranceOptions& options) {
            for (const std::string& region : regions) given.ignore.push_back(parseRegion(region));
          },
          "a region that is not compared; may be repeated")
+      ->allow_extra_args(false)
       ->type_name("X,Y,W,H");
   app.add_option("--mask", given.masks, "a picture, dark where pixels are not compared; may be repeated")
+      ->allow_extra_args(false)
       ->type_name("FILE");
   app.add_flag("--strict-alpha", given.strictAlpha, "compare colours under alpha 0 too");
 }
