@@ -305,6 +305,7 @@ CompareResult compareSequences(const std::filesystem::path& expected, const std:
   // Each sequence is read by a thread of its own; where there are more processors, the decoders use them.
   auto streams = openStreams(expected, actual, options.maxPixels, options.fps, std::max(1, threads / 2));
   std::vector<std::unique_ptr<Worker>> workers;
+  workers.reserve(static_cast<std::size_t>(threads));
   for (int i = 0; i < threads; ++i) workers.push_back(std::make_unique<Worker>(options));
   Summary summary(options);
   std::int64_t number = 0;

@@ -87,7 +87,7 @@ private:
     float curveUp = 0.0F;
     float curveDown = 0.0F;
     for (int offset = -kFeatureReach; offset <= kFeatureReach; ++offset) {
-      const auto i = static_cast<std::size_t>(offset + kFlipReach);
+      const std::size_t i = static_cast<std::size_t>(kFlipReach) + static_cast<std::size_t>(offset);
       const auto x = static_cast<float>(offset);
       const float g = std::exp(-x * x / (2.0F * kDeviation * kDeviation));
       gauss[i] = g;
@@ -117,8 +117,8 @@ using Lanes = std::array<float, kLanes>;
 /// out[x] = Σ taps[i]·in[x + i·step], for x in 0 … kTileWidth − 1.
 [[gnu::always_inline]] inline void convolve(const Taps& taps, int reach, const float* in, std::size_t step,
                                             float* out) {
-  const auto first = static_cast<std::size_t>(kFlipReach - reach);
-  const auto last = static_cast<std::size_t>(kFlipReach + reach);
+  const auto first = static_cast<std::size_t>(kFlipReach) - static_cast<std::size_t>(reach);
+  const auto last = static_cast<std::size_t>(kFlipReach) + static_cast<std::size_t>(reach);
   for (std::size_t x = 0; x < kTileWidth; x += kLanes) {
     Lanes sum{};
     for (std::size_t i = first; i <= last; ++i) {

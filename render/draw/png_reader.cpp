@@ -153,10 +153,12 @@ void PngPicture::unfilterInterlaced() {
     if (unfilterRows(data, rows, rowBytes, wholePixelBytes(header())))
       throw std::runtime_error("is damaged (an interlaced row has an unknown filter)");
     for (int row = 0; row < rows; ++row, data += 1 + rowBytes) {
-      std::uint8_t* to = whole.get() + 1 + static_cast<std::size_t>(pass.y + row * pass.stepY) * stride_;
+      const int y = pass.y + row * pass.stepY;
+      std::uint8_t* to = whole.get() + 1 + static_cast<std::size_t>(y) * stride_;
       for (int column = 0; column < columns; ++column) {
         const auto from = static_cast<std::size_t>(column);
-        const auto x = static_cast<std::size_t>(pass.x + column * pass.stepX);
+        const int target = pass.x + column * pass.stepX;
+        const auto x = static_cast<std::size_t>(target);
         if (pixelBits >= 8)
           std::memcpy(to + x * pixelBits / 8, data + 1 + from * pixelBits / 8, pixelBits / 8);
         else
