@@ -49,7 +49,7 @@ paired() {
 }
 
 # Frame by frame, whatever the containers make of the times.
-ssim() { ffmpeg -i "$1" -i frames.y4m -lavfi '[0]setpts=N[a];[1]setpts=N[b];[a][b]ssim' -f null - 2>&1 | sed -n 's/.*All:\([0-9.]*\).*/\1/p'; }
+ssim() { ffmpeg -i "$1" -i frames.y4m -lavfi '[0]settb=1/60,setpts=N[a];[1]settb=1/60,setpts=N[b];[a][b]ssim' -f null - 2>&1 | sed -n 's/.*All:\([0-9.]*\).*/\1/p'; }
 size() { du -bc "$@" | awk 'END { print $1 }'; }
 x264=(-c:v libx264 -preset veryfast -crf 20 -y)
 # As the video is tagged: BT.709, limited range, chroma sited left. FFmpeg's default filter sites it in the middle.
