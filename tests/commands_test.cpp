@@ -20,7 +20,7 @@ using ::testing::StartsWith;
 
 TEST(Commands, HelpOfEveryVerbGoesToStdoutWithStatus0) {
   for (const std::vector<std::string>& verb : std::vector<std::vector<std::string>>{
-           {}, {"render"}, {"still"}, {"trace"}, {"diff"}, {"check"}, {"doctor"}}) {
+           {}, {"render"}, {"still"}, {"trace"}, {"join"}, {"diff"}, {"golden"}, {"check"}, {"doctor"}}) {
     std::vector<std::string> arguments = verb;
     arguments.emplace_back("--help");
     const ProcessResult result = offstage(arguments);
@@ -57,6 +57,13 @@ TEST(Commands, BadUsageIsStatus2WithAMessageAndNoOutput) {
       {{"render", scene("fall"), "-o", (dir / "x.png").string()}, ".png"},
       {{"render", scene("fall"), "-o", (dir / "missing" / "x.mp4").string()}, "missing"},
       {{"render", scene("fall"), "-o", dir.path().string()}, dir.path().string()},
+      {{"render", scene("fall"), "-o", out, "--quality", "best"}, "--quality 'best'"},
+      {{"render", scene("fall"), "-o", out, "--quality", "lossless"}, "use .mkv"},
+      {{"render", scene("fall"), "-o", out, "--jobs", "-1"}, "--jobs '-1'"},
+      {{"render", scene("fall"), "-o", out, "--jobs", "two"}, "--jobs 'two'"},
+      {{"render", scene("fall"), "-o", out, "--segment", "2/1"}, "--segment '2/1'"},
+      {{"join", scene("fall")}, "-o OUT"},
+      {{"join", scene("fall"), "-o", out}, "render the segments first"},
       {{"still", scene("fall"), "-o", out, "--at", "1"}, ".png"},
       {{"still", scene("fall"), "-o", (dir / "x.png").string(), "--at", "11"}, "--at 11"},
       {{"still", scene("fall"), "-o", (dir / "x.png").string(), "--at", "-1"}, "--at"},
@@ -129,7 +136,7 @@ TEST(Commands, AClosedPipeIsAnErrorNotASilentDeath) {
   EXPECT_THAT(result.err, HasSubstr("error"));
 }
 
-TEST(Commands, CtrlCEndsWith130AndLeavesNothing) {
+TEST(Commands, CtrlCBeforeTheFirstChunkEndsWith130AndLeavesNothing) {
   const TempDir dir;
   ProcessOptions options;
   options.interruptAfterMs = 700;

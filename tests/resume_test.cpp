@@ -48,17 +48,19 @@ std::string bytesOf(const std::vector<std::string>& command, const std::filesyst
 TEST(Resume, BytesDoNotDependOnTheNumberOfWorkers) {
   const TempDir dir;
   const std::filesystem::path hashes = dir / "h.txt";
-  for (const auto& [name, duration] : {std::pair<std::string, std::string>{"x.mp4", "10"},
-                                       {"x.webm", "2"},
-                                       {"x.gif", "2"},
-                                       {"x.apng", "2"}}) {
+  struct Case {
+    std::string name;
+    std::string duration; ///< s
+  };
+  for (const Case& made : {Case{"x.mp4", "10"}, {"x.webm", "2"}, {"x.gif", "2"}, {"x.apng", "2"}}) {
+    const std::string& name = made.name;
     const auto with = [&](const std::string& jobs) {
       const std::vector<std::string> extra{"--size", "320x240", "--hash", hashes.string(), "--jobs", jobs};
-      return bytesOf(renderTo(dir / name, extra, duration), dir / name);
+      return bytesOf(renderTo(dir / name, extra, made.duration), dir / name);
     };
     const std::string expected = with("0");
     const std::string lines = readFile(hashes);
-    EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 60 * std::stoi(duration));
+    EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 60 * std::stoi(made.duration));
     for (const std::string jobs : {"1", "2", "5"}) {
       EXPECT_TRUE(with(jobs) == expected) << name << " with " << jobs << " workers";
       EXPECT_EQ(readFile(hashes), lines) << name << " with " << jobs << " workers";

@@ -171,6 +171,14 @@ private:
   }
 
   std::int64_t join(const Parts& parts) {
+    try {
+      return joinChunks(parts);
+    } catch (const Error& error) {
+      throw Error(error.code(), error.what() + whatIsKept(parts));
+    }
+  }
+
+  std::int64_t joinChunks(const Parts& parts) {
     std::vector<fs::path> chunks;
     for (std::int64_t chunk = 0; chunk < plan_.chunks(); ++chunk) chunks.push_back(parts.chunk(chunk));
     const std::int64_t bytes = output_->join(chunks, plan_.frames());

@@ -66,6 +66,8 @@ private:
     check(avcodec_parameters_to_context(decoder_.get(), stream_->codecpar), "its codec is not described");
     decoder_->pkt_timebase = stream_->time_base;
     decoder_->thread_count = 1;
+    // Nobody looks at the pictures: what smooths them is time lost.
+    decoder_->skip_loop_filter = AVDISCARD_ALL;
     check(avcodec_open2(decoder_.get(), codec, nullptr), "its decoder does not open");
   }
 

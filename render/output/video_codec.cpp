@@ -11,29 +11,25 @@ namespace offstage {
 namespace {
 
 // H.264, chosen on workload R of the bench (N moving opaque circles, 1920 × 1080, white; x264 0.164, one
-// thread). Each row: CPU ms a frame | bytes a frame | SSIM against the frames before encoding; chunks as a
-// clip of 300 frames (N = 10), 120 and 60 frames has them.
-//   settings                                  N = 10               N = 1000              N = 10000
-//   veryfast crf 20                           15.6 |  824 | .99954  52.7 | 33718 | .98594  98.6 | 217265 |
-//   .94669
-//   + subme=1 b-adapt=0, crf 18               12.4 | 1082 | .99963  38.6 | 44954 | .98926  72.6 | 270263 |
-//   .96148
-//   + subme=1 b-adapt=0 rc-lookahead=20       11.6 |  931 | .99958  33.2 | 38652 | .98689  60.1 | 226267 |
-//   .95000
-//   + the same, weightp=0 direct=temporal
-//     bframes=4                               10.9 |  843 | .99954  31.2 | 35869 | .98656  67.7 | 223446 |
-//     .94890  <-
-//   + bframes=8 b-adapt=0 rc-lookahead=10
-//     crf 19                                  12.4 |  775 | .99954  49.5 | 36493 | .98531 100.4 | 243878 |
-//     .94883
-//   superfast, b-adapt=0 bframes=8             8.3 | 1575 | .99976  22.8 | 44525 | .98261  50.3 | 190661 |
-//   .91541
-// Where a frame's position is between its neighbours', as with bodies that move on, the temporal prediction
-// of B-frames is exact; weights, which help with fades, cost time. Psychovisual optimisation does nothing
-// below subme 6. cpu-independent: else x264 chooses some algorithms by the processor, and the bytes with
-// them.
-constexpr const char* kX264Good = "subme=1:b-adapt=0:bframes=2:b-pyramid=none:weightp=0:direct=temporal:rc-"
-                                  "lookahead=5:qcomp=0.7:cpu-independent=1";
+// thread). CPU ms a frame, bytes a frame, SSIM against the frames before encoding:
+//                      N = 10              N = 1000              N = 10000
+//   veryfast, crf 20   15.6   824 .99954   52.7  33718 .98594    98.6 217265 .94669
+//   A                  12.4  1082 .99963   38.6  44954 .98926    72.6 270263 .96148
+//   B                  10.9   843 .99954   31.2  35869 .98656    67.7 223446 .94890
+//   C                  10.6   759 .99948   32.9  35009 .98557    64.1 235208 .95150
+//   C, spatial         10.8   940 .99951   36.3  39077 .98603    66.6 242091 .95263
+//   C, fast-pskip=0    15.1   913 .99949   36.6  35321 .98577    75.9 235219 .95150
+//   D: the one below   11.0   818 .99955   29.1  36201 .98647    67.4 234283 .95193
+//   superfast           8.3  1575 .99976   22.8  44525 .98261    50.3 190661 .91541
+// A: subme=1 b-adapt=0, crf 18. B: A with rc-lookahead=20 bframes=4 weightp=0 direct=temporal, crf 20.
+// C: B with rc-lookahead=5 bframes=2 b-pyramid=none qcomp=0.65, crf 20.2. D: C with dct-decimate=0, crf 20.3.
+// Where bodies move on, the temporal prediction of B-frames is exact; weights, which help with fades, cost
+// time. x264 drops blocks that have few small coefficients (decimation); in flat graphics those are the
+// edges. Every frame of lookahead takes 6 MB at this size and the pyramid 30 MB, so B takes 330 MB a worker
+// and D 200. Psychovisual optimisation does nothing below subme 6.
+// cpu-independent: else x264 chooses some algorithms by the processor, and the bytes with them.
+constexpr const char* kX264Fast = "subme=1:b-adapt=0:bframes=2:b-pyramid=none:weightp=0:direct=temporal:"
+                                  "dct-decimate=0:rc-lookahead=5:qcomp=0.65:cpu-independent=1";
 
 const std::vector<CodecTraits> kCodecs{
     {VideoCodec::H264, "libx264", ".mp4 .mkv .mov", "libavcodec59", "H.264", false, true, 16384, "h264",
@@ -61,9 +57,9 @@ using OptionList = std::vector<std::pair<std::string, std::string>>;
 OptionList h264Options(Quality quality) {
   switch (quality) {
   case Quality::Draft:
-    return {{"preset", "superfast"}, {"profile", "high"}, {"crf", "26"}, {"x264-params", kX264Good}};
+    return {{"preset", "superfast"}, {"profile", "high"}, {"crf", "30"}, {"x264-params", kX264Fast}};
   case Quality::Good:
-    return {{"preset", "veryfast"}, {"profile", "high"}, {"crf", "20.3"}, {"x264-params", kX264Good}};
+    return {{"preset", "veryfast"}, {"profile", "high"}, {"crf", "20.3"}, {"x264-params", kX264Fast}};
   case Quality::High:
     return {{"preset", "medium"}, {"profile", "high"}, {"crf", "14"}, {"x264-params", "cpu-independent=1"}};
   case Quality::Lossless:
