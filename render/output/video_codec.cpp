@@ -19,17 +19,20 @@ namespace {
 //   C                  10.6   759 .99948   32.9  35009 .98557    64.1 235208 .95150
 //   C, spatial         10.8   940 .99951   36.3  39077 .98603    66.6 242091 .95263
 //   C, fast-pskip=0    15.1   913 .99949   36.6  35321 .98577    75.9 235219 .95150
-//   D: the one below   11.0   818 .99955   29.1  36201 .98647    67.4 234283 .95193
+//   C, dct-decimate=0  11.0   818 .99955   29.1  36201 .98647    67.4 234283 .95193
 //   superfast           8.3  1575 .99976   22.8  44525 .98261    50.3 190661 .91541
+// and with chroma sited left, as here, in the frames before encoding:
+//   veryfast, crf 20   13.4   822 .99960   50.5  34811 .98728    92.3 212456 .94798
+//   the one below      9.0   813 .99961   26.8  36659 .98753    62.5 218190 .95066
 // A: subme=1 b-adapt=0, crf 18. B: A with rc-lookahead=20 bframes=4 weightp=0 direct=temporal, crf 20.
-// C: B with rc-lookahead=5 bframes=2 b-pyramid=none qcomp=0.65, crf 20.2. D: C with dct-decimate=0, crf 20.3.
+// C: B with rc-lookahead=5 bframes=2 b-pyramid=none qcomp=0.65, crf 20.2.
 // Where bodies move on, the temporal prediction of B-frames is exact; weights, which help with fades, cost
 // time. x264 drops blocks that have few small coefficients (decimation); in flat graphics those are the
-// edges. Every frame of lookahead takes 6 MB at this size and the pyramid 30 MB, so B takes 330 MB a worker
-// and D 200. Psychovisual optimisation does nothing below subme 6.
-// cpu-independent: else x264 chooses some algorithms by the processor, and the bytes with them.
+// edges. A low qcomp spends less where much moves. Every frame of lookahead takes 6 MB at this size and the
+// pyramid 30 MB, so B takes 330 MB a worker and this one 200. Psychovisual optimisation does nothing below
+// subme 6. cpu-independent: else x264 chooses some algorithms by the processor, and the bytes with them.
 constexpr const char* kX264Fast = "subme=1:b-adapt=0:bframes=2:b-pyramid=none:weightp=0:direct=temporal:"
-                                  "dct-decimate=0:rc-lookahead=5:qcomp=0.65:cpu-independent=1";
+                                  "dct-decimate=0:rc-lookahead=5:qcomp=0.5:cpu-independent=1";
 
 const std::vector<CodecTraits> kCodecs{
     {VideoCodec::H264, "libx264", ".mp4 .mkv .mov", "libavcodec59", "H.264", false, true, 16384, "h264",
@@ -59,7 +62,7 @@ OptionList h264Options(Quality quality) {
   case Quality::Draft:
     return {{"preset", "superfast"}, {"profile", "high"}, {"crf", "30"}, {"x264-params", kX264Fast}};
   case Quality::Good:
-    return {{"preset", "veryfast"}, {"profile", "high"}, {"crf", "20.3"}, {"x264-params", kX264Fast}};
+    return {{"preset", "veryfast"}, {"profile", "high"}, {"crf", "18"}, {"x264-params", kX264Fast}};
   case Quality::High:
     return {{"preset", "medium"}, {"profile", "high"}, {"crf", "14"}, {"x264-params", "cpu-independent=1"}};
   case Quality::Lossless:
