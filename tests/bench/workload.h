@@ -5,8 +5,8 @@
 
 namespace offstage::bench {
 
-/// The generator of the workloads: a linear congruential one with the constants of Numerical Recipes, of which the
-/// upper 24 bits are used.
+/// The generator of the workloads: a linear congruential one with the constants of Numerical Recipes, of
+/// which the upper 24 bits are used.
 class Lcg {
 public:
   explicit Lcg(std::uint32_t seed) : state_(seed) {}
