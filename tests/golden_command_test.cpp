@@ -217,7 +217,6 @@ TEST(GoldenCommand, ReportsAsJsonAndJunit) {
 TEST(GoldenCommand, ScenesMayStandInAnotherFolder) {
   const GoldenFolder folder;
   folder.writeScene("fall", "red", 40);
-  std::filesystem::create_directory(folder.dir() / "goldens");
   EXPECT_EQ(folder.golden({"record", "goldens", "--scenes", "."}).status, 0);
   EXPECT_EQ(folder.golden({"verify", "goldens", "--scenes", "."}).status, 0);
   EXPECT_THAT(folder.dir().names("goldens"), Contains("goldens.lock"));

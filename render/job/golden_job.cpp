@@ -203,9 +203,12 @@ Report verifyGoldens(const GoldenFolders& folders) {
 }
 
 GoldenRecording recordGoldens(const GoldenFolders& folders) {
+  const std::vector<Scene> scenes = requireScenes(folders.scenes);
+  std::error_code failed; // the store says what is wrong with the folder
+  std::filesystem::create_directories(folders.goldens, failed);
   GoldenStore store(folders.goldens);
   GoldenRecording recording;
-  for (const Scene& scene : requireScenes(folders.scenes)) {
+  for (const Scene& scene : scenes) {
     GoldenRun run(scene, store);
     std::size_t written = 0;
     std::size_t kept = 0;

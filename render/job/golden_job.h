@@ -30,7 +30,8 @@ struct GoldenRecording {
   std::vector<std::string> differing; ///< not touched: it has another golden, which only accept replaces
 };
 
-/// Draws every golden moment and writes those that have no golden yet. Throws as verifyGoldens().
+/// Draws every golden moment and writes those that have no golden yet, into a folder that is made if need be.
+/// Throws as verifyGoldens().
 GoldenRecording recordGoldens(const GoldenFolders& folders);
 
 } // namespace offstage
