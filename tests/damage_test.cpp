@@ -2,10 +2,10 @@
 #include "render/raster/canvas.h"
 #include "src/scene/scene.h"
 #include "tests/support/canvas_pictures.h"
+#include "tests/support/scene_names.h"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <optional>
 #include <random>
 #include <string>
@@ -98,14 +98,6 @@ TEST_P(DamageOfScene, LeavesThePixelsOfAWholeRedraw) {
     source.step();
   }
   EXPECT_GT(both.partial(), frames / 2) << "of " << frames << " frames";
-}
-
-std::vector<std::string> sceneNames() {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(OFFSTAGE_SOURCE_DIR "/scenes"))
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, DamageOfScene, ::testing::ValuesIn(sceneNames()),

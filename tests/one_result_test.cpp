@@ -1,8 +1,7 @@
 #include "tests/support/process.h"
+#include "tests/support/scene_names.h"
 #include "tests/support/temp_dir.h"
 
-#include <algorithm>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -59,14 +58,6 @@ TEST_P(OneResult, OfASceneOnEveryProcessorVectorWidthThreadCountAndBackend) {
   ASSERT_NE(expected, "");
   for (const Environment& environment : machines())
     EXPECT_EQ(hashes(file, from, environment), expected) << GetParam() << " with " << describe(environment);
-}
-
-std::vector<std::string> sceneNames() {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(OFFSTAGE_SOURCE_DIR "/scenes"))
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, OneResult, ::testing::ValuesIn(sceneNames()),

@@ -29,11 +29,6 @@ PixelRect united(const PixelRect& a, const PixelRect& b) {
           std::max(a.bottom, b.bottom)};
 }
 
-PixelRect common(const PixelRect& a, const PixelRect& b) {
-  return {std::max(a.left, b.left), std::max(a.top, b.top), std::min(a.right, b.right),
-          std::min(a.bottom, b.bottom)};
-}
-
 std::int64_t area(const PixelRect& rect) {
   return static_cast<std::int64_t>(rect.right - rect.left) * (rect.bottom - rect.top);
 }

@@ -21,11 +21,6 @@ double cost(const ProgramKind& program, const PixelRect& rect) {
          pixels * (program.coverage == Coverage::Whole ? kWholePixelCost : kBlendedPixelCost);
 }
 
-PixelRect common(const PixelRect& a, const PixelRect& b) {
-  return {std::max(a.left, b.left), std::max(a.top, b.top), std::min(a.right, b.right),
-          std::min(a.bottom, b.bottom)};
-}
-
 bool holds(const PixelRect& outer, const PixelRect& inner) {
   return common(outer, inner) == inner;
 }

@@ -2,11 +2,18 @@
 
 #include "render/draw/picture.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace offstage {
+
+/// The pixels that lie in both; empty() when there are none.
+inline PixelRect common(const PixelRect& a, const PixelRect& b) {
+  return {std::max(a.left, b.left), std::max(a.top, b.top), std::min(a.right, b.right),
+          std::min(a.bottom, b.bottom)};
+}
 
 /// A set of the tiles of kTile×kTile px that a frame is divided into from its upper-left corner. Stored as
 /// one word for each cell of 8×8 tiles: bit 8·row + column.
