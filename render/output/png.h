@@ -1,17 +1,20 @@
 #pragma once
 
+#include "render/output/pixel_deflate.h"
 #include "render/raster/frame.h"
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace offstage {
 
 /// Encodes frames as PNG (ISO/IEC 15948): 8-bit RGB, or RGBA; IHDR, sRGB (perceptual), pHYs when a resolution
-/// is given, one IDAT, IEND. The bytes depend only on the arguments and libdeflate's version. Keeps its
-/// buffers, so that the frames of a sequence allocate nothing. Not for use from two threads at once.
+/// is given, one IDAT, IEND. Flat pictures are compressed by PixelDeflater, others by libdeflate; the bytes
+/// depend only on the arguments and libdeflate's version. Keeps its buffers, so that the frames of a sequence
+/// allocate nothing. Not for use from two threads at once.
 class PngEncoder {
 public:
   PngEncoder();
@@ -29,10 +32,15 @@ private:
   /// Puts the frame into rows_: only its damage when they still hold its base.
   void pack(const Frame& frame, bool alpha);
   void pack(const Frame& frame, bool alpha, const PixelRect& rect);
+  /// Compresses rows_ to file_ from `at` on; returns the size.
+  std::size_t compress(int width, bool alpha, std::size_t at);
 
-  std::unique_ptr<Compressor> compressor_;
-  std::vector<std::uint8_t> rows_; ///< the filter byte and the pixels of every row
-  std::uint64_t packed_ = 0;       ///< id of the frame that rows_ holds; 0: none that can be told
+  std::optional<PixelDeflater> flat_; ///< for pictures of these:
+  int flatWidth_ = 0;
+  bool flatAlpha_ = false;
+  std::unique_ptr<Compressor> compressor_; ///< null until a picture is not flat
+  std::vector<std::uint8_t> rows_;         ///< the filter byte and the pixels of every row
+  std::uint64_t packed_ = 0;               ///< id of the frame that rows_ holds; 0: none that can be told
   bool packedAlpha_ = false;
   std::vector<std::uint8_t> file_;
 };

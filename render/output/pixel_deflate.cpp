@@ -1,0 +1,131 @@
+#include "render/output/pixel_deflate.h"
+
+#include "render/output/byte_order.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include <libdeflate.h>
+
+namespace offstage {
+namespace {
+
+/// How many of the 8 bytes from `at` on equal those `distance` before, up to the first that does not.
+std::size_t equalOfEight(const std::uint8_t* at, std::size_t distance) {
+  std::uint64_t here = 0;
+  std::uint64_t there = 0;
+  std::memcpy(&here, at, sizeof here);
+  std::memcpy(&there, at - distance, sizeof there);
+  return static_cast<std::size_t>(std::countr_zero(here ^ there)) / 8;
+}
+
+/// How many bytes from `at` on, below `end`, equal those `distance` before, in whole pixels.
+template <std::size_t Channels>
+std::size_t repeated(const std::uint8_t* at, const std::uint8_t* end, std::size_t distance) {
+  const std::uint8_t* const begin = at;
+  std::size_t equal = 8;
+  while (equal == 8 && end - at >= 8) {
+    equal = equalOfEight(at, distance);
+    at += equal;
+  }
+  if (equal == 8) {
+    while (at < end && *at == *(at - distance)) ++at;
+  }
+  return static_cast<std::size_t>(at - begin) / Channels * Channels;
+}
+
+// 32 KiB of window, the fastest compressor's mark, and the check bits that make it divisible by 31.
+constexpr std::uint8_t kZlibMethod = 0x78;
+constexpr std::uint8_t kZlibFlags = 0x01;
+constexpr std::size_t kZlibHead = 2;
+constexpr std::size_t kZlibTail = 4;
+constexpr std::size_t kSlack = 8; // BitWriter's
+/// A match with the row above costs some 13 bits: more than one more run of the pixel before, less than two
+/// pixels that stand for themselves.
+constexpr std::size_t kLeastAbove = 2;
+/// Bytes of about the longest match, in whole pixels of 3 or 4 bytes.
+constexpr std::size_t kLongRun = 252;
+
+} // namespace
+
+PixelDeflater::PixelDeflater(std::size_t width, std::size_t channels)
+    : channels_(channels),
+      rowBytes_(1 + width * channels),
+      reachesAbove_(rowBytes_ <= DeflateBlock::kFarthest),
+      block_(channels, reachesAbove_ ? rowBytes_ : 0) {}
+
+void PixelDeflater::addMatch(std::size_t length, bool above) {
+  // The longest match of all has the shortest code, so that long runs are cut to it, wherever pixels end.
+  while (length > 0) {
+    std::size_t part = std::min(length, DeflateBlock::kLongestMatch);
+    const std::size_t rest = length - part;
+    if (rest > 0 && rest < DeflateBlock::kShortestMatch) part -= DeflateBlock::kShortestMatch;
+    block_.addMatch(part, above);
+    length -= part;
+  }
+}
+
+template <std::size_t Channels>
+void PixelDeflater::addRow(const std::uint8_t* row, bool first) {
+  const std::uint8_t* const end = row + rowBytes_;
+  block_.addLiterals(row, 1);
+  const std::uint8_t* at = row + 1;
+  const bool above = reachesAbove_ && !first;
+  while (at < end) {
+    const std::size_t run = at == row + 1 ? 0 : repeated<Channels>(at, end, Channels);
+    // A run that is short may end where the row above goes on.
+    std::size_t same = above && run < kLongRun ? repeated<Channels>(at, end, rowBytes_) : 0;
+    if (same < run + kLeastAbove * Channels) same = 0;
+    if (run == 0 && same >= kLongRun) {
+      // The runs that follow a pixel which stands for itself are cheaper than one long match.
+      if (repeated<Channels>(at + Channels, end, Channels) + Channels >= same) same = 0;
+    }
+    if (same > 0) {
+      same = std::min(same, kLongRun); // what then follows is most often a run
+      addMatch(same, true);
+      at += same;
+    } else if (run > 0) {
+      addMatch(run, false);
+      at += run;
+    } else {
+      block_.addLiterals(at, Channels);
+      ++literalPixels_;
+      at += Channels;
+    }
+  }
+}
+
+std::size_t PixelDeflater::compress(std::span<const std::uint8_t> rows, std::span<std::uint8_t> to) {
+  if (to.size() < kZlibHead + kZlibTail + kSlack) return 0;
+  to[0] = kZlibMethod;
+  to[1] = kZlibFlags;
+  const std::size_t count = rows.size() / rowBytes_;
+  const std::size_t mostLiterals = rows.size() / channels_ / 4;
+  const std::size_t room = to.size() - kZlibTail - kSlack;
+  BitWriter out(to.data() + kZlibHead);
+  const std::uint8_t* written = rows.data();
+  literalPixels_ = 0;
+  for (std::size_t y = 0; y < count; ++y) {
+    const std::uint8_t* row = rows.data() + y * rowBytes_;
+    if (channels_ == 3) {
+      addRow<3>(row, y == 0);
+    } else {
+      addRow<4>(row, y == 0);
+    }
+    const bool last = y + 1 == count;
+    if (!last && !block_.full()) continue;
+    block_.close();
+    const bool fits = kZlibHead + out.size() + block_.bits() / 8 + 1 <= room;
+    if (literalPixels_ > mostLiterals || !fits) {
+      block_.clear();
+      return 0;
+    }
+    written = block_.write(written, last, out);
+  }
+  const std::size_t size = kZlibHead + out.finish();
+  storeBigEndian(to.data() + size, libdeflate_adler32(1, rows.data(), rows.size()));
+  return size + kZlibTail;
+}
+
+} // namespace offstage
