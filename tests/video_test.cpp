@@ -387,7 +387,9 @@ TEST(VerifyVideo, NamesEachDifference) {
   expected.frames = 21;
   EXPECT_EQ(verify(expected), failed + "number of frames 20 instead of 21");
   expected = expectedOf(66, 46, 20, 30);
-  EXPECT_EQ(verify(expected), failed + "width 64 instead of 66; height 48 instead of 46");
+  EXPECT_EQ(verify(expected),
+            failed + "width 64 instead of 66; height 48 instead of 46; decoded width 64 instead of 66; "
+                     "decoded height 48 instead of 46");
   expected = expectedOf(64, 48, 20, 30);
   expected.end = 21;
   EXPECT_EQ(verify(expected), failed + "duration 0.666667 s instead of 0.700000 s");

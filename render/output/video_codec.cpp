@@ -23,16 +23,22 @@ namespace {
 //   superfast           8.3  1575 .99976   22.8  44525 .98261    50.3 190661 .91541
 // and with chroma sited left, as here, in the frames before encoding:
 //   veryfast, crf 20   13.4   822 .99960   50.5  34811 .98728    92.3 212456 .94798
-//   the one below      9.0   813 .99961   26.8  36659 .98753    62.5 218190 .95066
+//   D                  9.0   813 .99961   26.8  36659 .98753    62.5 218190 .95066
+// and of the first 60 frames (N = 10000: 30), the sum of CPU seconds, KiB, SSIM:
+//   veryfast, crf 20   0.76    52 .99961    2.80   1942 .98678    2.53   6024 .94704
+//   D                  0.58    53 .99962    1.71   2053 .98722    1.97   6345 .95039
+//   the one below      0.50    52 .99962    1.50   2084 .98707    1.70   6400 .95040
 // A: subme=1 b-adapt=0, crf 18. B: A with rc-lookahead=20 bframes=4 weightp=0 direct=temporal, crf 20.
 // C: B with rc-lookahead=5 bframes=2 b-pyramid=none qcomp=0.65, crf 20.2.
+// D: C with dct-decimate=0 qcomp=0.5, crf 18. The one below: D with me=dia merange=8.
 // Where bodies move on, the temporal prediction of B-frames is exact; weights, which help with fades, cost
 // time. x264 drops blocks that have few small coefficients (decimation); in flat graphics those are the
 // edges. A low qcomp spends less where much moves. Every frame of lookahead takes 6 MB at this size and the
 // pyramid 30 MB, so B takes 330 MB a worker and this one 200. Psychovisual optimisation does nothing below
 // subme 6. cpu-independent: else x264 chooses some algorithms by the processor, and the bytes with them.
-constexpr const char* kX264Fast = "subme=1:b-adapt=0:bframes=2:b-pyramid=none:weightp=0:direct=temporal:"
-                                  "dct-decimate=0:rc-lookahead=5:qcomp=0.5:cpu-independent=1";
+constexpr const char* kX264Fast =
+    "subme=1:b-adapt=0:bframes=2:b-pyramid=none:weightp=0:direct=temporal:"
+    "dct-decimate=0:rc-lookahead=5:qcomp=0.5:me=dia:merange=8:cpu-independent=1";
 
 const std::vector<CodecTraits> kCodecs{
     {VideoCodec::H264, "libx264", ".mp4 .mkv .mov", "libavcodec59", "H.264", false, true, 16384, "h264",
