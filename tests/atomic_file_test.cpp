@@ -215,6 +215,22 @@ TEST(AtomicFile, LongNamesAndLeftoversDoNotDisturb) {
   EXPECT_EQ(readFile(dir / stale), "of another run");
 }
 
+TEST(AtomicFile, OnlyAbandonedTemporariesOfTheNamesAskedForAreRemoved) {
+  const TempDir dir;
+  const std::vector<std::string> left{".a.mp4.12345.partial", ".a.mp4.12345.2.partial"};
+  const std::vector<std::string> others{".b.mp4.12345.partial", "a.mp4.12345.partial", ".a.mp4.partial",
+                                        ".a.mp4.x1.partial", ".a.mp4.12345.partial.bak"};
+  for (const auto& names : {left, others})
+    for (const std::string& name : names) dir.write(name, "x");
+  AtomicFile living(dir / "a.mp4");
+  removeAbandoned(dir.path(), [](std::string_view name) { return name == "a.mp4"; });
+  for (const std::string& name : left) EXPECT_FALSE(fs::exists(dir / name)) << name;
+  for (const std::string& name : others) EXPECT_TRUE(fs::exists(dir / name)) << name;
+  EXPECT_TRUE(fs::exists(living.temporary()));
+  living.commit();
+  removeAbandoned(dir / "missing", [](std::string_view) { return true; }); // is no error
+}
+
 TEST(AtomicFile, ForkedCopyRemovesNothing) {
   const TempDir dir;
   std::optional<AtomicFile> file;

@@ -193,6 +193,18 @@ TEST(Resume, AnotherSceneOrOptionStartsOverAndSaysSo) {
   EXPECT_EQ(fresh.err, "");
 }
 
+TEST(Resume, WhatAKilledRunLeftBesideTheOutputIsRemoved) {
+  const TempDir dir;
+  std::filesystem::create_directory(dir / "f");
+  const std::vector<std::filesystem::path> left{dir.write(".x.mp4.4194305.partial", "cut off"),
+                                                dir.write("f/.0003.png.4194305.partial", "cut off")};
+  for (const char* out : {"x.mp4", "f/%04d.png"}) {
+    const ProcessResult result = runProcess(renderTo(dir / out, {"--size", "64x48"}, "0.2"));
+    EXPECT_EQ(result.status, 0) << result.err;
+  }
+  for (const std::filesystem::path& file : left) EXPECT_FALSE(std::filesystem::exists(file)) << file;
+}
+
 TEST(Resume, CtrlCKeepsFinishedChunksAndTellsOfThem) {
   const TempDir dir;
   Running run(renderTo(dir / "x.mp4", {"--jobs", "1"}));

@@ -9,6 +9,8 @@
 #include "render/output/atomic_file.h"
 #include "render/output/codecs.h"
 #include "render/output/file_error.h"
+#include "render/output/frame_pattern.h"
+#include "render/output/output_kind.h"
 #include "src/sim/error.h"
 
 #include <algorithm>
@@ -59,6 +61,7 @@ public:
     Parts parts(options_.out, manifest(!options_.hashFile.empty()),
                 options_.segment ? Parts::Use::Segment : Parts::Use::Whole, options_.resume);
     printNotice(parts.notice());
+    removeLeftovers();
     const std::vector<std::int64_t> missing = missingChunks(parts);
     const std::int64_t there = endChunk_ - firstChunk_ - static_cast<std::int64_t>(missing.size());
     if (there > 0) {
@@ -102,6 +105,19 @@ public:
   }
 
 private:
+  /// What runs that were killed while they wrote OUT itself have left beside it.
+  void removeLeftovers() const {
+    const fs::path out = fs::weakly_canonical(options_.out);
+    if (outputKind(out) == OutputKind::PngSequence) {
+      const FramePattern pattern(out);
+      removeAbandoned(pattern.folder(),
+                      [&](std::string_view name) { return pattern.numberOf(name).has_value(); });
+    } else {
+      removeAbandoned(out.parent_path(),
+                      [&](std::string_view name) { return name == out.filename().native(); });
+    }
+  }
+
   using SteadyClock = std::chrono::steady_clock;
 
   static SinkFormat formatOf(const Source& source, const RenderOptions& options, const Schedule& schedule) {

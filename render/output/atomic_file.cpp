@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <fcntl.h>
 #include <optional>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -61,14 +62,34 @@ std::optional<mode_t> permissionsOf(const fs::path& target, const fs::path& path
   return info.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO);
 }
 
+constexpr std::string_view kTemporaryEnding = ".partial";
+
 /// `.NAME.PID.partial`; NAME is cut so that the whole is a legal name, and not within a UTF-8 character.
 std::string temporaryName(const std::string& name, pid_t pid, int attempt) {
-  const std::string suffix =
-      attempt == 0 ? fmt::format(".{}.partial", pid) : fmt::format(".{}.{}.partial", pid, attempt);
+  const std::string suffix = attempt == 0 ? fmt::format(".{}{}", pid, kTemporaryEnding)
+                                          : fmt::format(".{}.{}{}", pid, attempt, kTemporaryEnding);
   std::size_t length = std::min(name.size(), NAME_MAX - suffix.size() - 1);
   while (length > 0 && length < name.size() && (static_cast<unsigned char>(name[length]) & 0xC0U) == 0x80U)
     --length;
   return fmt::format(".{}{}", std::string_view(name).substr(0, length), suffix);
+}
+
+/// Removes a dot and digits from the end; false when there are none.
+bool dropNumber(std::string_view& name) {
+  const std::size_t dot = name.rfind('.');
+  if (dot == std::string_view::npos || dot + 1 == name.size()) return false;
+  if (name.find_first_not_of("0123456789", dot + 1) != std::string_view::npos) return false;
+  name = name.substr(0, dot);
+  return true;
+}
+
+/// Whether this is a temporary's name, with or without the number of an attempt, of a name that `isOurs`
+/// accepts.
+bool isTemporaryOf(std::string_view name, const std::function<bool(std::string_view name)>& isOurs) {
+  if (!name.starts_with('.') || !name.ends_with(kTemporaryEnding)) return false;
+  name.remove_prefix(1);
+  name.remove_suffix(kTemporaryEnding.size());
+  return dropNumber(name) && (isOurs(name) || (dropNumber(name) && isOurs(name)));
 }
 
 } // namespace
@@ -92,6 +113,9 @@ void AtomicFile::openTemporary() {
     temporary_ = folder / temporaryName(target_.filename().native(), owner_, attempt);
     descriptor_ = open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ >= 0) {
+      // Tells removeAbandoned() that somebody is at work. Where a file system has no locks, it removes
+      // nothing.
+      flock(descriptor_, LOCK_EX | LOCK_NB);
       std::error_code error;
       const fs::path absolute = fs::absolute(temporary_, error);
       if (!error) record_ = registerTemporary(absolute.native());
@@ -156,6 +180,17 @@ void AtomicFile::commit(SyncFolder sync) {
 
 void requireWritable(const fs::path& path) {
   const AtomicFile probe(path);
+}
+
+void removeAbandoned(const fs::path& folder, const std::function<bool(std::string_view name)>& isOurs) {
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    if (!isTemporaryOf(entry->path().filename().native(), isOurs)) continue;
+    const int descriptor = open(entry->path().c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
+    if (descriptor < 0) continue;
+    if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) unlink(entry->path().c_str());
+    close(descriptor);
+  }
 }
 
 void syncFolder(const fs::path& folder) {
