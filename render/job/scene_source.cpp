@@ -59,6 +59,15 @@ double SceneSource::time() const {
   return std::visit([](const auto& motion) { return motion.time(); }, motion_);
 }
 
+Snapshot SceneSource::snapshot() const {
+  if (const auto* world = std::get_if<World>(&motion_)) return snapshotOf(*world);
+  Snapshot snapshot; // a trace has no gravity and no forces
+  snapshot.frame = frame();
+  snapshot.time = time();
+  snapshot.bodies = bodies();
+  return snapshot;
+}
+
 std::span<const Body> SceneSource::bodies() const {
   return std::visit([](const auto& motion) { return motion.bodies(); }, motion_);
 }

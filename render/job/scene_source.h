@@ -3,6 +3,7 @@
 #include "render/draw/painter.h"
 #include "render/job/source.h"
 #include "src/scene/scene.h"
+#include "src/sim/probe.h"
 #include "src/sim/world.h"
 
 #include <span>
@@ -25,6 +26,8 @@ public:
   [[nodiscard]] std::uint64_t fingerprint() const override { return fingerprint_; }
 
   [[nodiscard]] double time() const; ///< s: of the present frame
+  /// What probes see of the present frame. Valid until the next step.
+  [[nodiscard]] Snapshot snapshot() const;
   /// The bodies of the present frame in the order in which they are drawn. Valid until the next step.
   [[nodiscard]] std::span<const Body> bodies() const;
   [[nodiscard]] const Painter& painter() const { return painter_; }
