@@ -113,6 +113,7 @@ Entries baseOf(const std::string& table) {
       {"replay", {{"trace", "\"student.csv\""}}},
       {"replay.look", {{"id", "2"}}},
       {"golden", {{"at", "[0.5]"}}},
+      {"text", {{"text", "\"b\""}, {"place", "\"top\""}}},
   };
   const auto found = bases.find(table);
   return found == bases.end() ? Entries{} : found->second;
@@ -148,6 +149,9 @@ Entries with(const std::string& table, const std::string& key, const std::string
   if (table == "replay.look" && key == "group") drop({"id"});
   if (table == "golden" && key == "every") drop({"at"});
   if (table == "random") drop({"uniform"});
+  if (table == "text" && key == "at") drop({"place"});
+  if (table == "text" && key == "padding") set(entries, "background", "\"red\"");
+  if (table == "text" && key == "outline_width") set(entries, "outline", "\"red\"");
   if (table == "stroke" && (key == "anchor" || key == "proportional")) set(entries, "image", "\"image.png\"");
   if ((table == "fill" || table == "stroke") && key == "proportional") set(entries, "anchor", "[0, 0, 1, 1]");
   if (!key.empty()) set(entries, key, value);
@@ -171,7 +175,8 @@ std::string sceneWith(const std::string& table, const Entries& entries) {
   if (table == "stroke") return spawn + "stroke = { " + inlined + " }\n";
   if (table == "random") return spawn + "vx = { " + inlined + " }\n";
   if (table.starts_with("force")) return body + "[[force]]\n" + lines;
-  const bool many = table == "body" || table == "spawn" || table == "launch" || table == "collide";
+  const bool many =
+      table == "body" || table == "spawn" || table == "launch" || table == "collide" || table == "text";
   return body + (many ? "[[" + table + "]]\n" : "[" + table + "]\n") + lines;
 }
 
@@ -198,15 +203,19 @@ std::string valueOf(const DocumentedKey& key) {
       {"[x, y] or name", "\"b\""},
       {"[group, group]", "[\"bodies\", \"bodies\"]"},
       {"expression", "\"x + 1\""},
+      {"choice or file", "\"mono\""},
       {"table", "{}"},
   };
   // Words and truths other than the default, so that they have an effect.
   static const std::map<std::string, std::string> words = {
-      {"integrator", "rk4"},  {"shape", "circle"}, {"align", "inside"},      {"count", "alive"},
-      {"response", "report"}, {"type", "drag"},    {"when", "after-update"},
+      {"integrator", "rk4"},    {"shape", "circle"},    {"align", "inside"},
+      {"count", "alive"},       {"response", "report"}, {"type", "drag"},
+      {"when", "after-update"}, {"place", "bottom"},    {"anchor", "left"},
   };
   if (key.type == "boolean") return key.defaultText == "true" ? "false" : "true";
   if (key.key == "leaving") return key.defaultText == "\"keep\"" ? "\"remove\"" : "\"keep\"";
+  if (key.table == "text" && key.key == "align") return "\"right\"";
+  if (key.table == "text" && key.key == "size") return "20.5";
   if (key.type == "choice") return '"' + words.at(key.key) + '"';
   if (key.key == "name") return "\"another\"";
   if (key.key == "recorded") return "\"log.dt\"";

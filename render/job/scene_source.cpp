@@ -22,6 +22,7 @@ std::uint64_t fingerprintOf(const Scene& scene) {
     if (look.fill) addPaint(fingerprint, *look.fill);
     if (look.stroke) addPaint(fingerprint, look.stroke->paint);
   }
+  for (const TextItem& item : scene.texts) fingerprint.addFile(fontFile(item.look.font));
   if (scene.replay) fingerprint.addFile(scene.replay->trace.file);
   return fingerprint.value();
 }
@@ -33,6 +34,7 @@ SceneSource::SceneSource(const Scene& scene, Viewport viewport)
       title_(scene.title),
       motion_(motionOf(scene)),
       painter_(viewport, scene.background),
+      texts_(scene, viewport),
       fingerprint_(fingerprintOf(scene)) {
   // The painter numbers looks as the scene does, so Body::look needs no translation.
   for (const Look& look : scene.looks) painter_.addLook(look);
@@ -49,6 +51,7 @@ void SceneSource::step() {
 void SceneSource::draw(Picture& picture) const {
   painter_.begin(picture);
   for (const Body& body : bodies()) painter_.body(picture, body, body.look);
+  drawTexts(picture);
 }
 
 std::uint64_t SceneSource::stateHash() const {
@@ -57,6 +60,15 @@ std::uint64_t SceneSource::stateHash() const {
 
 double SceneSource::time() const {
   return std::visit([](const auto& motion) { return motion.time(); }, motion_);
+}
+
+Snapshot SceneSource::snapshot() const {
+  if (const auto* world = std::get_if<World>(&motion_)) return snapshotOf(*world);
+  Snapshot snapshot; // a trace has no gravity and no forces
+  snapshot.frame = frame();
+  snapshot.time = time();
+  snapshot.bodies = bodies();
+  return snapshot;
 }
 
 std::span<const Body> SceneSource::bodies() const {

@@ -52,6 +52,7 @@ Still drawStill(SceneSource& source, double at, int strobe) {
       source.painter().body(picture, body, body.look);
     }
   }
+  source.drawTexts(picture); // of the last moment
 
   Still still;
   still.alpha = picture.background.a != 255;

@@ -102,6 +102,8 @@ void parseTables(SceneBuilder& builder, const TomlValue& root, const SceneOverri
   parseEach(builder, top, "force", parseForce);
   // Behind a wrong force, what has a closed form cannot be told.
   if (builder.errors.count() == errorsBefore) checkExactBodies(builder, errorsBefore == 0);
+  // Texts show values of what all others have named.
+  parseEach(builder, top, "text", parseText);
 }
 
 } // namespace
