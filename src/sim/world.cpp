@@ -34,19 +34,23 @@ Event stampOf(const Tick& tick) {
 } // namespace
 
 World::World(WorldSetup setup)
-    : setup_(std::move(setup)), random_(setup_.seed), spawned_(setup_.spawners.size(), 0) {
+    : setup_(std::move(setup)),
+      random_(setup_.seed),
+      spawned_(setup_.spawners.size(), 0),
+      alive_(setup_.spawners.size(), 0) {
   checkSetup(setup_);
-  for (std::size_t i = 0; i < setup_.bodies.size(); ++i) setup_.bodies[i].id = static_cast<std::uint32_t>(i);
   mover_ = Mover(setup_);
   contacts_ = ContactSolver(setup_.contacts);
-  bodies_.reserve(setup_.bodies.size());
-  for (const Body& body : setup_.bodies) create(body, time_);
+  const std::vector<Body> first = std::exchange(setup_.bodies, {});
+  bodies_.reserve(first.size());
+  for (const Body& body : first) create(body, time_);
 }
 
 void World::create(Body body, double time) {
   body.id = nextId_;
   mover_.add(setup_, body, time);
   bodies_.push_back(body);
+  if (body.spawner < alive_.size()) ++alive_[body.spawner];
   ++nextId_;
 }
 
@@ -92,10 +96,7 @@ void World::spawnDue(Spawner::When when, const Tick& tick, double time) {
     const auto index = static_cast<std::uint32_t>(i);
     std::int64_t& made = spawned_[i];
     if (spawner.when != when || (spawner.limit && made >= *spawner.limit)) continue;
-    const auto count = spawner.count == Spawner::Count::Spawned
-                           ? made
-                           : std::count_if(bodies_.begin(), bodies_.end(),
-                                           [index](const Body& b) { return b.spawner == index; });
+    const std::int64_t count = spawner.count == Spawner::Count::Spawned ? made : alive_[i];
     if (!(std::floor(tick.time / spawner.every) > static_cast<double>(count))) continue;
     const Body body = drawBody(spawner, index, made, random_);
     ++made;
@@ -128,7 +129,10 @@ void World::removeGone(const Event& stamp) {
   }
   std::size_t kept = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (removed_[i] != 0) continue;
+    if (removed_[i] != 0) {
+      if (bodies_[i].spawner < alive_.size()) --alive_[bodies_[i].spawner];
+      continue;
+    }
     if (kept != i) bodies_[kept] = bodies_[i];
     ++kept;
   }

@@ -37,6 +37,7 @@ public:
   [[nodiscard]] const Body* find(std::uint32_t id) const; ///< null when it is gone (or was never there)
   /// What happened in the last step, in order.
   [[nodiscard]] std::span<const Event> events() const { return events_; }
+  /// What the world started from, but for its bodies, of which bodies() shows what has become.
   [[nodiscard]] const WorldSetup& setup() const { return setup_; }
   [[nodiscard]] std::uint64_t stateHash() const;
 
@@ -56,6 +57,7 @@ private:
   std::vector<std::uint8_t>
       removed_; ///< by index into bodies_, within a step: 1 when a contact takes it away
   std::vector<std::int64_t> spawned_; ///< by spawner: bodies that it has made
+  std::vector<std::int64_t> alive_;   ///< by spawner: those of them that live
   std::vector<Event> events_;
   std::uint32_t nextId_ = 0;
   std::int64_t frame_ = 0;
