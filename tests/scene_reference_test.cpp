@@ -99,6 +99,7 @@ using Entries = std::vector<std::pair<std::string, std::string>>;
 Entries baseOf(const std::string& table) {
   static const std::map<std::string, Entries> bases = {
       {"body", {{"center", "[10, 20]"}, {"radius", "5"}}},
+      {"bodies", {{"table", "\"circles.csv\""}}},
       {"fill", {{"image", "\"image.png\""}}},
       {"random", {{"uniform", "[1, 2]"}}},
       {"spawn", {{"x", "1"}, {"y", "2"}, {"radius", "3"}}},
@@ -175,8 +176,8 @@ std::string sceneWith(const std::string& table, const Entries& entries) {
   if (table == "stroke") return spawn + "stroke = { " + inlined + " }\n";
   if (table == "random") return spawn + "vx = { " + inlined + " }\n";
   if (table.starts_with("force")) return body + "[[force]]\n" + lines;
-  const bool many =
-      table == "body" || table == "spawn" || table == "launch" || table == "collide" || table == "text";
+  const bool many = table == "body" || table == "bodies" || table == "spawn" || table == "launch" ||
+                    table == "collide" || table == "text";
   return body + (many ? "[[" + table + "]]\n" : "[" + table + "]\n") + lines;
 }
 
@@ -219,6 +220,7 @@ std::string valueOf(const DocumentedKey& key) {
   if (key.type == "choice") return '"' + words.at(key.key) + '"';
   if (key.key == "name") return "\"another\"";
   if (key.key == "recorded") return "\"log.dt\"";
+  if (key.key == "table") return "\"circles.csv\"";
   if (key.key == "trace") return "\"student.csv\"";
   if (key.key == "replay") return "{ trace = \"student.csv\" }";
   if (key.key == "golden") return "{ at = [1] }";
@@ -246,6 +248,7 @@ protected:
   SceneReference() {
     folder_.write("image.png", "only looked for, not read");
     folder_.write("log.dt", "16666667\n");
+    folder_.write("circles.csv", "x,y,radius\n1,2,3\n");
     folder_.write("student.csv",
                   "frame,time,id,x,y,radius,group\n0,0,0,1,2,3,a\n0,0,2,1,2,3,b\n1,1,2,1,2,3,b\n");
   }

@@ -10,6 +10,7 @@ namespace offstage {
 // scenes/README.md lists them.
 
 inline constexpr std::size_t kMaxSceneBytes = std::size_t{8} << 20U;
+inline constexpr std::size_t kMaxTableBytes = std::size_t{256} << 20U; ///< of a [[bodies]] table
 inline constexpr std::int64_t kMaxSide = 16384;     ///< px: width and height, of the scene and of its output
 inline constexpr double kMaxScale = 64.0;           ///< output pixels per scene pixel
 inline constexpr double kMaxDuration = 86400.0;     ///< s

@@ -95,6 +95,7 @@ void parseTables(SceneBuilder& builder, const TomlValue& root, const SceneOverri
   parseSingle(builder, top, "walls", parseWalls);
   // Names come before what refers to them: groups and bodies before collisions and forces.
   parseEach(builder, top, "body", parseBody);
+  parseEach(builder, top, "bodies", parseBodies);
   parseEach(builder, top, "spawn", parseSpawn);
   parseEach(builder, top, "launch", parseLaunch);
   parseEach(builder, top, "collide", parseCollide);

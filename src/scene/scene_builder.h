@@ -65,6 +65,7 @@ void parseView(SceneBuilder& builder, const TomlValue& table);
 void parseWorld(SceneBuilder& builder, const TomlValue& table);
 void parseWalls(SceneBuilder& builder, const TomlValue& table);
 void parseBody(SceneBuilder& builder, const TomlValue& table);
+void parseBodies(SceneBuilder& builder, const TomlValue& table);
 void parseSpawn(SceneBuilder& builder, const TomlValue& table);
 void parseLaunch(SceneBuilder& builder, const TomlValue& table);
 void parseCollide(SceneBuilder& builder, const TomlValue& table);

@@ -15,6 +15,7 @@ constexpr SceneKey kKeys[] = {
     {"", "walls", "table", "", "none"},
     {"", "view", "table", "", "none"},
     {"", "body", "tables", "", "none"},
+    {"", "bodies", "tables", "", "none"},
     {"", "spawn", "tables", "", "none"},
     {"", "launch", "tables", "", "none"},
     {"", "collide", "tables", "", "none"},
@@ -62,6 +63,8 @@ constexpr SceneKey kKeys[] = {
     {"body", "stroke", "table", "", "none"},
     {"body", "opacity", "number", "", "1"},
     {"body", "leaving", "choice", "", "\"keep\""},
+
+    {"bodies", "table", "file", "", "required"},
 
     {"fill", "image", "file", "", "required"},
     {"fill", "anchor", "[x, y, width, height]", "", "[0, 0, 1, 1]"},
