@@ -33,7 +33,7 @@ struct Scene {
   std::vector<std::string> bodyNames;   ///< by id of WorldSetup::bodies; empty where unnamed
   std::shared_ptr<const Replay> replay; ///< null: the world is simulated; else it is empty
   std::optional<GoldenMoments> golden;  ///< what `offstage golden` keeps of it
-  Theme theme;
+  Theme theme = themeOf(ThemeName::None);
   std::vector<TextItem> texts; ///< drawn over the bodies, in this order
 };
 
