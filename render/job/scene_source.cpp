@@ -23,7 +23,7 @@ std::uint64_t fingerprintOf(const Scene& scene) {
     if (look.stroke) addPaint(fingerprint, look.stroke->paint);
   }
   for (const TextItem& item : scene.texts) fingerprint.addFile(fontFile(item.look.font));
-  for (const auto& table : scene.tables) fingerprint.addFile(table);
+  for (const auto& table : scene.files) fingerprint.addFile(table);
   if (scene.replay) fingerprint.addFile(scene.replay->trace.file);
   return fingerprint.value();
 }

@@ -9,7 +9,7 @@
 
 namespace offstage {
 
-/// A text on the stage, drawn over all shapes. A Text is a handle, as a Node is: a copy is the same text. It
+/// A text on the stage, drawn over all shapes; sharpest where it stands at a whole y. A Text is a handle, as a Node is: a copy is the same text. It
 /// is no part of the state hash.
 class Text {
 public:

@@ -387,7 +387,7 @@ void parseBodies(SceneBuilder& builder, const TomlValue& table) {
     if (const std::size_t zero = text.find('\0'); zero != std::string::npos)
       throw SceneError(file->string(), "a table of bodies is text, but this file holds a zero byte");
     BodyTable(builder, table, *file, text).read();
-    builder.scene.tables.push_back(*file);
+    builder.scene.files.push_back(*file);
   } catch (const SceneError& problems) {
     builder.errors.add(problems);
   }

@@ -60,7 +60,7 @@ void rejectKeysOfOtherShape(const TableReader& reader, Shape shape,
 Body readBody(SceneBuilder& builder, const TableReader& reader, BodyNumbers& numbers) {
   Body body;
   const bool shapeKnown = readBodyProperties(builder, reader, body);
-  body.look = readLooks(builder, reader, false).front();
+  body.look = readLooks(builder, reader, body, false).front();
   if (shapeKnown) {
     rejectKeysOfOtherShape(reader, body.shape, {"center", "radius"}, {"position", "size"});
     if (body.shape == Shape::Circle) {

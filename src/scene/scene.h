@@ -29,12 +29,12 @@ struct Scene {
   double scale = 1.0;                    ///< output pixels per scene pixel
   Clock clock = Clock::fixed(60.0, 600); ///< already cut to the duration
   WorldSetup world;
-  std::vector<Look> looks;                   ///< Body::look is an index into these
-  std::vector<std::string> bodyNames;        ///< by id of WorldSetup::bodies; empty where unnamed
-  std::vector<std::filesystem::path> tables; ///< the files of [[bodies]] that bodies were read from
-  std::shared_ptr<const Replay> replay;      ///< null: the world is simulated; else it is empty
-  std::optional<GoldenMoments> golden;       ///< what `offstage golden` keeps of it
-  Theme theme;
+  std::vector<Look> looks;                  ///< Body::look is an index into these
+  std::vector<std::string> bodyNames;       ///< by id of WorldSetup::bodies; empty where unnamed
+  std::vector<std::filesystem::path> files; ///< read beside its text: tables of bodies, recorded input
+  std::shared_ptr<const Replay> replay;     ///< null: the world is simulated; else it is empty
+  std::optional<GoldenMoments> golden;      ///< what `offstage golden` keeps of it
+  Theme theme = themeOf(ThemeName::None);
   std::vector<TextItem> texts; ///< drawn over the bodies, in this order
 };
 
