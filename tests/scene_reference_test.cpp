@@ -98,6 +98,7 @@ using Entries = std::vector<std::pair<std::string, std::string>>;
 /// The required entries of each table.
 Entries baseOf(const std::string& table) {
   static const std::map<std::string, Entries> bases = {
+      {"input", {{"log", "\"keys.log\""}}},
       {"body", {{"center", "[10, 20]"}, {"radius", "5"}}},
       {"bodies", {{"table", "\"circles.csv\""}}},
       {"fill", {{"image", "\"image.png\""}}},
@@ -145,7 +146,7 @@ Entries with(const std::string& table, const std::string& key, const std::string
     }
   }
   if (table == "spawn" && key == "center") drop({"x", "y"});
-  if (table == "launch" && key == "frame") drop({"at"});
+  if (table == "launch" && (key == "frame" || key == "on")) drop({"at"});
   if (table == "fill" && key == "cycle") drop({"image"});
   if (table == "replay.look" && key == "group") drop({"id"});
   if (table == "golden" && key == "every") drop({"at"});
@@ -176,6 +177,7 @@ std::string sceneWith(const std::string& table, const Entries& entries) {
   if (table == "fill") return spawn + "fill = { " + inlined + " }\n";
   if (table == "stroke") return spawn + "stroke = { " + inlined + " }\n";
   if (table == "random") return spawn + "vx = { " + inlined + " }\n";
+  if (table == "launch") return body + "[input]\nlog = \"keys.log\"\n[[launch]]\n" + lines;
   if (table.starts_with("force")) return body + "[[force]]\n" + lines;
   const bool many = table == "body" || table == "bodies" || table == "spawn" || table == "launch" ||
                     table == "collide" || table == "text";
@@ -205,6 +207,7 @@ std::string valueOf(const DocumentedKey& key) {
       {"[x, y] or name", "\"b\""},
       {"[group, group]", "[\"bodies\", \"bodies\"]"},
       {"expression", "\"x + 1\""},
+      {"key or button", "\"key SPACE\""},
       {"choice or file", "\"mono\""},
       {"table", "{}"},
   };
@@ -222,6 +225,8 @@ std::string valueOf(const DocumentedKey& key) {
   if (key.type == "choice") return '"' + words.at(key.key) + '"';
   if (key.key == "name") return "\"another\"";
   if (key.key == "recorded") return "\"log.dt\"";
+  if (key.key == "log") return "\"keys.log\"";
+  if (key.key == "input") return "{ log = \"keys.log\" }";
   if (key.key == "table") return "\"circles.csv\"";
   if (key.key == "trace") return "\"student.csv\"";
   if (key.key == "replay") return "{ trace = \"student.csv\" }";
@@ -250,6 +255,7 @@ protected:
   SceneReference() {
     folder_.write("image.png", "only looked for, not read");
     folder_.write("log.dt", "16666667\n");
+    folder_.write("keys.log", "0.5 key down SPACE\n");
     folder_.write("circles.csv", "x,y,radius\n1,2,3\n");
     folder_.write("student.csv",
                   "frame,time,id,x,y,radius,group\n0,0,0,1,2,3,a\n0,0,2,1,2,3,b\n1,1,2,1,2,3,b\n");

@@ -261,6 +261,7 @@ RenderOptions optionsOfSegments(const RenderOptions& options) {
   put(merged.from, options.from);
   put(merged.to, options.to);
   put(merged.dtLog, options.dtLog);
+  put(merged.input, options.input);
   put(merged.seed, options.seed);
   put(merged.scale, options.scale);
   put(merged.quality, options.quality);

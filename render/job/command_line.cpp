@@ -68,6 +68,8 @@ void addSceneOptions(CLI::App& app, RenderOptions& options) {
   addNumber(app, "--duration", options.duration, "S", "simulated seconds");
   app.add_option("--dt", options.dtLog, "a dt log to step by: a frame duration in ns a line")
       ->type_name("LOG");
+  app.add_option("--input", options.input, "recorded input to replay: keys and mouse, an event a line")
+      ->type_name("LOG");
   addNumber(app, "--seed", options.seed, "N", "seed of the random numbers");
   addNumber(app, "--scale", options.scale, "F", "output pixels per scene pixel");
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "render/stage/input.h"
 #include "render/stage/node.h"
 #include "render/stage/text.h"
 #include "src/sim/clock.h"
@@ -33,6 +34,9 @@ public:
   [[nodiscard]] std::int64_t frame() const { return now_.frame; } ///< number of the frame being made, from 0
   [[nodiscard]] Random& random() { return random_; }              ///< java.util.Random, seeded
 
+  /// What the user of a recorded game does (`--input`).
+  [[nodiscard]] const Input& input() const { return input_; }
+
   /// Puts a shape on top. One that is there already stays where it is.
   void add(const Node& node);
   /// Takes a shape away; nothing happens when it is not there.
@@ -58,6 +62,7 @@ private:
   Settings settings_;
   Random random_;
   Tick now_;
+  Input input_;
   std::vector<Entry> entries_;
   struct TextEntry {
     Text text;

@@ -46,6 +46,9 @@ StageSource::StageSource(std::unique_ptr<Exercise> exercise, const RenderOptions
       painter_(options.viewport(stage_.width(), stage_.height(), options.scale.value_or(1.0)),
                stage_.settings_.background),
       textPainter_(painter_.viewport()) {
+  if (options.input) stage_.input_.log_ = std::make_shared<const InputLog>(InputLog::read(*options.input));
+  inputFile_ = options.input.value_or("");
+  stage_.input_.advance(0.0);
   exercise_->start(stage_);
   prepareLooks();
   checkTexts();
@@ -53,6 +56,7 @@ StageSource::StageSource(std::unique_ptr<Exercise> exercise, const RenderOptions
 
 void StageSource::step() {
   stage_.now_ = clock_.tick(stage_.frame() + 1);
+  stage_.input_.advance(stage_.now_.time);
   exercise_->frame(stage_, stage_.now_.dt);
   prepareLooks();
   checkTexts();
@@ -88,6 +92,7 @@ std::uint64_t StageSource::stateHash() const {
 std::uint64_t StageSource::fingerprint() const {
   Fingerprint fingerprint;
   fingerprint.add(clock_);
+  if (!inputFile_.empty()) fingerprint.addFile(inputFile_);
   return fingerprint.value();
 }
 

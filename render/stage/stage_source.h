@@ -23,7 +23,7 @@ public:
   void step() override;
   void draw(Picture& picture) const override;
   [[nodiscard]] std::uint64_t stateHash() const override;
-  /// Of the clock alone: all else of an exercise is the program and its options.
+  /// Of the clock and the recorded input: all else of an exercise is the program and its options.
   [[nodiscard]] std::uint64_t fingerprint() const override;
 
 private:
@@ -34,6 +34,7 @@ private:
 
   std::unique_ptr<Exercise> exercise_;
   Clock clock_;
+  std::filesystem::path inputFile_; ///< empty: none
   Stage stage_;
   Painter painter_;
   TextPainter textPainter_;

@@ -28,7 +28,8 @@ struct LookRules {
 
 void rejectTablesThatMove(const TableReader& top) {
   if (top.has("clock")) top.reject("clock", "cannot stand beside [replay], whose trace has the times");
-  for (const char* key : {"world", "walls", "view", "body", "spawn", "launch", "collide", "force"}) {
+  for (const char* key :
+       {"world", "walls", "input", "view", "body", "bodies", "spawn", "launch", "collide", "force"}) {
     if (top.has(key)) top.reject(key, "cannot stand beside [replay], which simulates nothing");
   }
 }

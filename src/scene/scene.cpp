@@ -2,6 +2,7 @@
 
 #include "src/scene/limits.h"
 #include "src/scene/parse_clock.h"
+#include "src/scene/parse_input.h"
 #include "src/scene/parse_replay.h"
 #include "src/scene/quote.h"
 #include "src/scene/scene_builder.h"
@@ -95,6 +96,7 @@ void parseTables(SceneBuilder& builder, const TomlValue& root, const SceneOverri
   parseSingle(builder, top, "view", parseView);
   parseSingle(builder, top, "world", parseWorld);
   parseSingle(builder, top, "walls", parseWalls);
+  parseInput(builder, singleTable(top, "input"), overrides);
   // Names come before what refers to them: groups and bodies before collisions and forces.
   parseEach(builder, top, "body", parseBody);
   parseEach(builder, top, "bodies", parseBodies);

@@ -46,6 +46,7 @@ struct SceneOverrides {
   std::optional<double> duration; ///< s
   std::optional<std::int64_t> seed;
   std::optional<double> scale;
+  std::optional<std::filesystem::path> input; ///< [input] log; relative to the working directory
 };
 
 /// Reads and checks a scene file. Throws SceneError with every error of the file, or Error(BadInput) when it

@@ -92,6 +92,14 @@ std::optional<Anchor> SceneBuilder::readAnchor(const TableReader& reader, std::s
   return Anchor{view.position({(*point)[0], (*point)[1]}), std::nullopt};
 }
 
+bool SceneBuilder::isPointer(const TableReader& reader, std::string_view key) {
+  const TomlValue* value = reader.find(key);
+  const auto* word = value == nullptr ? nullptr : std::get_if<std::string>(&value->data);
+  if (word == nullptr || *word != "mouse" || bodies.contains("mouse")) return false;
+  if (!input) reader.reject(key, "is the pointer of recorded input, but the scene has no [input]");
+  return true;
+}
+
 std::optional<std::filesystem::path> SceneBuilder::readFile(const TableReader& reader, std::string_view key) {
   const auto name = reader.givenString(key);
   if (!name) return std::nullopt;

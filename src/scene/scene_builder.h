@@ -1,6 +1,7 @@
 #pragma once
 
 #include "src/scene/error_list.h"
+#include "src/scene/input_log.h"
 #include "src/scene/look_table.h"
 #include "src/scene/scene.h"
 #include "src/scene/table_reader.h"
@@ -29,6 +30,7 @@ struct SceneBuilder {
   ErrorList errors;
   View view;
   Integrator integrator = Integrator::SemiImplicitEuler; ///< the world's
+  std::optional<InputLog> input;                         ///< [input]
   LookTable looks;
   std::map<std::string, std::uint32_t, std::less<>> groups; ///< by name: index into WorldSetup::groups
   std::map<std::string, std::uint32_t, std::less<>> bodies; ///< by name: id
@@ -49,6 +51,9 @@ struct SceneBuilder {
   std::optional<std::uint32_t> findBody(const TomlValue& value, const std::string& what);
   /// `[x, y]` in the scene's units or a body's name.
   std::optional<Anchor> readAnchor(const TableReader& reader, std::string_view key);
+  /// Whether the key names the pointer of the recorded input: "mouse", where no body has that name. Reported
+  /// when there is no recording.
+  bool isPointer(const TableReader& reader, std::string_view key);
   /// A file that the scene names: beside the scene, and there. Else reported and nothing returned.
   std::optional<std::filesystem::path> readFile(const TableReader& reader, std::string_view key);
   /// Reports when [view] has made one of a table's numbers infinite.

@@ -15,6 +15,7 @@ constexpr SceneKey kKeys[] = {
     {"", "world", "table", "", "none"},
     {"", "walls", "table", "", "none"},
     {"", "view", "table", "", "none"},
+    {"", "input", "table", "", "none"},
     {"", "body", "tables", "", "none"},
     {"", "bodies", "tables", "", "none"},
     {"", "spawn", "tables", "", "none"},
@@ -53,6 +54,8 @@ constexpr SceneKey kKeys[] = {
     {"view", "pixels_per_metre", "number", "px", "1"},
     {"view", "origin", "[x, y]", "px", "[0, 0]"},
     {"view", "y_up", "boolean", "", "false"},
+
+    {"input", "log", "file", "", "required"},
 
     {"body", "name", "string", "", "none"},
     {"body", "group", "string", "", "\"bodies\""},
@@ -122,6 +125,7 @@ constexpr SceneKey kKeys[] = {
 
     {"launch", "at", "number or list", "s", "required"},
     {"launch", "frame", "integer or list", "", "required"},
+    {"launch", "on", "key or button", "", "required"},
     {"launch", "from", "[x, y] or name", "px", "required"},
     {"launch", "toward", "[x, y] or name", "px", "required"},
     {"launch", "speed", "number", "px/s", "required"},

@@ -66,9 +66,9 @@ bool isDue(const Launch::Moment& moment, std::int64_t frame, double before, doub
   return now >= moment.time && (frame == 1 || before < moment.time);
 }
 
-Shot aim(const Launch& launch, std::span<const Body> bodies) {
-  const std::optional<Vec2> from = locate(launch.from, bodies);
-  const std::optional<Vec2> toward = locate(launch.toward, bodies);
+Shot aim(const Launch& launch, const Launch::Moment& moment, std::span<const Body> bodies) {
+  const std::optional<Vec2> from = moment.from ? moment.from : locate(launch.from, bodies);
+  const std::optional<Vec2> toward = moment.toward ? moment.toward : locate(launch.toward, bodies);
   if (!from) return {launch.from.point, std::nullopt};
   if (!toward) return {*from, std::nullopt};
   const Vec2 d = *toward - *from;

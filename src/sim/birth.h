@@ -23,7 +23,7 @@ struct Shot {
   Vec2 from;                    ///< px: where it starts, or would have
   std::optional<Vec2> velocity; ///< px/s; none when there is no direction or a body that it needs is gone
 };
-Shot aim(const Launch& launch, std::span<const Body> bodies);
+Shot aim(const Launch& launch, const Launch::Moment& moment, std::span<const Body> bodies);
 
 /// The living body with this id in `bodies`, which are ordered by id; null when it is gone.
 const Body* findBody(std::span<const Body> bodies, std::uint32_t id);

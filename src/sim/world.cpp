@@ -76,7 +76,7 @@ void World::launchDue(const Tick& tick) {
   for (const Launch& launch : setup_.launches) {
     for (const Launch::Moment& moment : launch.moments) {
       if (!isDue(moment, tick.frame, time_, tick.time)) continue;
-      const Shot shot = aim(launch, bodies_);
+      const Shot shot = aim(launch, moment, bodies_);
       if (!shot.velocity) {
         events_.push_back(eventOf(stampOf(tick), EventKind::NoFire, nextId_, shot.from));
         continue;

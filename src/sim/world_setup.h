@@ -90,6 +90,7 @@ struct Launch {
   struct Moment {
     std::optional<std::int64_t> frame; ///< ≥ 1: in the step to this frame, or
     double time = 0.0; ///< s: in the step to the first frame ≥ 1 whose time is not before it
+    std::optional<Vec2> from{}, toward{}; ///< px: in place of the launch's own; where a pointer was
   };
   std::vector<Moment> moments;
   Anchor from;        ///< read at launch

@@ -8,6 +8,7 @@
 
 #include "render/stage/exercise.h"
 #include "render/stage/game_object.h"
+#include "render/stage/input.h"
 #include "render/stage/node.h"
 #include "render/stage/stage.h"
 #include "render/stage/text.h"
