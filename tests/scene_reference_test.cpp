@@ -151,6 +151,7 @@ Entries with(const std::string& table, const std::string& key, const std::string
   if (table == "replay.look" && key == "group") drop({"id"});
   if (table == "golden" && key == "every") drop({"at"});
   if (table == "random") drop({"uniform"});
+  if (table == "clock" && key == "dt") set(entries, "step", "\"fixed\"");
   if (table == "text" && key == "at") drop({"place"});
   if (table == "text" && key == "formula") drop({"text"});
   if (table == "text" && key == "padding") set(entries, "background", "\"red\"");
@@ -213,9 +214,9 @@ std::string valueOf(const DocumentedKey& key) {
   };
   // Words and truths other than the default, so that they have an effect.
   static const std::map<std::string, std::string> words = {
-      {"integrator", "rk4"},    {"shape", "circle"},    {"align", "inside"},
-      {"count", "alive"},       {"response", "report"}, {"type", "drag"},
-      {"when", "after-update"}, {"place", "bottom"},    {"anchor", "left"},
+      {"integrator", "rk4"}, {"shape", "circle"},    {"align", "inside"}, {"step", "fixed"},
+      {"count", "alive"},    {"response", "report"}, {"type", "drag"},    {"when", "after-update"},
+      {"place", "bottom"},   {"anchor", "left"},
   };
   if (key.type == "boolean") return key.defaultText == "true" ? "false" : "true";
   if (key.key == "leaving") return key.defaultText == "\"keep\"" ? "\"remove\"" : "\"keep\"";

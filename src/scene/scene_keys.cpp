@@ -39,6 +39,8 @@ constexpr SceneKey kKeys[] = {
 
     {"clock", "fps", "number", "1/s", "60"},
     {"clock", "recorded", "file", "", "none"},
+    {"clock", "step", "choice", "", "\"variable\""},
+    {"clock", "dt", "number", "s", "the 60th part of one"},
     {"clock", "substeps", "integer", "", "1"},
 
     {"world", "gravity", "[x, y]", "px/s²", "[0, 9.8]"},

@@ -61,9 +61,10 @@ Body drawBody(const Spawner& spawner, std::uint32_t index, std::int64_t number, 
   return body;
 }
 
-bool isDue(const Launch::Moment& moment, std::int64_t frame, double before, double now) {
-  if (moment.frame) return *moment.frame == frame;
-  return now >= moment.time && (frame == 1 || before < moment.time);
+bool isDue(const Launch::Moment& moment, const StepSpan& step) {
+  // A frame may have no step; its launches then wait for the next one.
+  if (moment.frame) return step.frameBefore < *moment.frame && *moment.frame <= step.frame;
+  return step.now >= moment.time && (step.frameBefore == 0 || step.before < moment.time);
 }
 
 Shot aim(const Launch& launch, const Launch::Moment& moment, std::span<const Body> bodies) {

@@ -14,9 +14,15 @@ namespace offstage {
 /// the spawner's number in the setup.
 Body drawBody(const Spawner& spawner, std::uint32_t index, std::int64_t number, Random& random);
 
-/// Whether a moment falls into the step that leads from the frame at `before` (number `frame` − 1) to the one
-/// at `now`, s.
-bool isDue(const Launch::Moment& moment, std::int64_t frame, double before, double now);
+/// From where to where a step leads.
+struct StepSpan {
+  std::int64_t frameBefore = 0;   ///< in which the step before it was made; 0: it is the first one
+  std::int64_t frame = 1;         ///< in which it is made
+  double before = 0.0, now = 0.0; ///< s of simulated time
+};
+
+/// Whether a moment falls into a step.
+bool isDue(const Launch::Moment& moment, const StepSpan& step);
 
 /// What a launch makes of the bodies as they are.
 struct Shot {

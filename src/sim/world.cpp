@@ -60,6 +60,31 @@ void World::step(const Tick& tick) {
                                 " does not follow frame " + std::to_string(frame_));
   }
   events_.clear();
+  frame_ = tick.frame;
+  const double dt = setup_.stepping.dt;
+  switch (setup_.stepping.form) {
+  case Stepping::Form::Variable:
+    advance(tick);
+    break;
+  case Stepping::Form::Fixed:
+    advance({tick.frame, static_cast<double>(++steps_) * dt, dt});
+    break;
+  case Stepping::Form::Clamped:
+    while (tick.time - time_ > dt) advance({tick.frame, time_ + dt, dt});
+    advance({tick.frame, tick.time, tick.time - time_});
+    break;
+  case Stepping::Form::Accumulator:
+    // Counted in steps, so that no rounding of an accumulated rest adds up.
+    while (static_cast<double>(steps_ + 1) * dt <= tick.time) {
+      beforeStep_ = bodies_;
+      advance({tick.frame, static_cast<double>(++steps_) * dt, dt});
+    }
+    ahead_ = std::clamp((tick.time - time_) / dt, 0.0, 1.0);
+    break;
+  }
+}
+
+void World::advance(const Tick& tick) {
   launchDue(tick);
   spawnDue(Spawner::When::BeforeUpdate, tick, time_);
   const double h = tick.dt / setup_.substeps;
@@ -67,15 +92,15 @@ void World::step(const Tick& tick) {
     const double end = j + 1 == setup_.substeps ? tick.time : time_ + (j + 1) * h;
     substep(time_ + j * h, h, end, stampOf(tick));
   }
-  frame_ = tick.frame;
   time_ = tick.time;
+  steppedFrame_ = tick.frame;
   spawnDue(Spawner::When::AfterUpdate, tick, time_);
 }
 
 void World::launchDue(const Tick& tick) {
   for (const Launch& launch : setup_.launches) {
     for (const Launch::Moment& moment : launch.moments) {
-      if (!isDue(moment, tick.frame, time_, tick.time)) continue;
+      if (!isDue(moment, {steppedFrame_, tick.frame, time_, tick.time})) continue;
       const Shot shot = aim(launch, moment, bodies_);
       if (!shot.velocity) {
         events_.push_back(eventOf(stampOf(tick), EventKind::NoFire, nextId_, shot.from));
@@ -139,6 +164,16 @@ void World::removeGone(const Event& stamp) {
   if (kept == bodies_.size()) return;
   bodies_.resize(kept);
   mover_.keepOnly(bodies_);
+}
+
+std::span<const Body> World::shown(std::vector<Body>& blended) const {
+  if (setup_.stepping.form != Stepping::Form::Accumulator) return bodies_;
+  blended = bodies_;
+  for (Body& body : blended) {
+    const Body* before = findBody(beforeStep_, body.id);
+    if (before != nullptr) body.position = before->position + (body.position - before->position) * ahead_;
+  }
+  return blended;
 }
 
 const Body* World::find(std::uint32_t id) const {

@@ -25,23 +25,30 @@ public:
   /// the message names the body's id and the reason (see closedFormProblem()).
   explicit World(WorldSetup setup);
 
-  /// One frame: `tick.frame` must be frame() + 1 (std::invalid_argument otherwise). Throws Error(BadInput)
-  /// when an `Exact` body has got into a state without a closed form, such as an orbit from which it escapes
-  /// after a collision; the world is then to be given up.
+  /// One frame, in the steps that WorldSetup::stepping makes of it: `tick.frame` must be frame() + 1
+  /// (std::invalid_argument otherwise). Throws Error(BadInput) when an `Exact` body has got into a state
+  /// without a closed form, such as an orbit from which it escapes after a collision; the world is then to be
+  /// given up.
   void step(const Tick& tick);
 
   [[nodiscard]] std::int64_t frame() const { return frame_; }
-  [[nodiscard]] double time() const { return time_; } ///< s
+  /// s of simulated time. After a frame its tick's, but for Stepping::Form::Fixed and Accumulator.
+  [[nodiscard]] double time() const { return time_; }
   /// The living bodies in order of creation. Valid until the next step.
   [[nodiscard]] std::span<const Body> bodies() const { return bodies_; }
+  /// The bodies as a picture of the frame shows them. With Stepping::Form::Accumulator those that live before
+  /// and after the last step are on the straight line between, as far along as time is left over: the picture
+  /// lags behind by up to one step. `blended` holds them then.
+  [[nodiscard]] std::span<const Body> shown(std::vector<Body>& blended) const;
   [[nodiscard]] const Body* find(std::uint32_t id) const; ///< null when it is gone (or was never there)
-  /// What happened in the last step, in order.
+  /// What happened in the last frame, in order.
   [[nodiscard]] std::span<const Event> events() const { return events_; }
   /// What the world started from, but for its bodies, of which bodies() shows what has become.
   [[nodiscard]] const WorldSetup& setup() const { return setup_; }
   [[nodiscard]] std::uint64_t stateHash() const;
 
 private:
+  void advance(const Tick& tick);      ///< one step
   void create(Body body, double time); ///< gives the body its id and lets it move from `time` on
   void launchDue(const Tick& tick);
   void spawnDue(Spawner::When when, const Tick& tick, double time);
@@ -62,6 +69,10 @@ private:
   std::uint32_t nextId_ = 0;
   std::int64_t frame_ = 0;
   double time_ = 0.0;
+  std::int64_t steps_ = 0;        ///< made so far, of Stepping::Form::Fixed and Accumulator
+  std::int64_t steppedFrame_ = 0; ///< in which the last step was made
+  std::vector<Body> beforeStep_;  ///< of Stepping::Form::Accumulator: the bodies before the last step
+  double ahead_ = 0.0;            ///< 0 … 1: time left over, in steps
 };
 
 } // namespace offstage
