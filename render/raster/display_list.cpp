@@ -17,14 +17,15 @@ bool samePrimitive(const DisplayList& a, std::size_t i, const DisplayList& b, st
   const Primitive& y = b.primitives[j];
   return x.kind == y.kind && x.color == y.color && x.center == y.center && x.outer == y.outer &&
          x.inner == y.inner && x.low == y.low && x.high == y.high && x.innerLow == y.innerLow &&
-         x.innerHigh == y.innerHigh && samePattern(a, x, b, y);
+         x.innerHigh == y.innerHigh && a.clipOf(x) == b.clipOf(y) && samePattern(a, x, b, y);
 }
 
 Layer makeLayer(const DisplayList& list, const Primitive& primitive, int largestPoint,
                 PatternTexture& patterns) {
   Layer layer;
-  if (list.clip.empty()) return layer;
-  const std::optional<Drawable> drawable = makeDrawable(primitive, list.clip, largestPoint);
+  layer.clip = list.clipOf(primitive);
+  if (layer.clip.empty()) return layer;
+  const std::optional<Drawable> drawable = makeDrawable(primitive, layer.clip, largestPoint);
   if (!drawable) return layer;
   layer.visible = true;
   layer.instance = drawable->instance;
@@ -46,6 +47,7 @@ void updateDisplayList(const Picture& picture, int largestPoint, const DisplayLi
               std::min(picture.clip.right, picture.width), std::min(picture.clip.bottom, picture.height)};
   now.primitives = picture.primitives;
   now.patterns = picture.patterns;
+  now.clips = picture.clips;
   changes.clear();
 
   const std::size_t old = before.clip == now.clip ? before.primitives.size() : 0;

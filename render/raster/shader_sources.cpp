@@ -1,5 +1,7 @@
 #include "render/raster/shader_sources.h"
 
+#include "render/raster/shader_paths.h"
+
 #include <fmt/format.h>
 
 namespace offstage {
@@ -29,6 +31,10 @@ flat out vec2 vOrigin;
 #endif
 #ifdef HAS_INNER
 flat out vec4 vInner;
+#endif
+#ifdef HAS_MORE
+flat out vec4 vMore;
+flat out vec2 vRest;
 #endif
 #ifdef PATTERN
 flat out vec3 vWindowAlpha;
@@ -60,6 +66,10 @@ void main() {
 #ifdef HAS_INNER
   vInner = inner;
 #endif
+#ifdef HAS_MORE
+  vMore = texelMap;
+  vRest = window;
+#endif
   float alpha = float(color.a) * (1.0 / 255.0);
 #ifdef PATTERN
   vWindowAlpha = vec3(window, alpha);
@@ -84,6 +94,10 @@ flat in vec2 vOrigin;
 #endif
 #ifdef HAS_INNER
 flat in vec4 vInner;
+#endif
+#ifdef HAS_MORE
+flat in vec4 vMore;
+flat in vec2 vRest;
 #endif
 #ifdef PATTERN
 flat in vec3 vWindowAlpha;
@@ -249,6 +263,11 @@ std::string coverageFunctions(Coverage coverage) {
     return columns + kLarge + kSmall;
   case Coverage::Box:
     return kBox;
+  case Coverage::Quad:
+  case Coverage::Arrow:
+  case Coverage::Strip:
+  case Coverage::Elbow:
+    return pathFunctions(coverage);
   case Coverage::Whole:
     break;
   }
@@ -268,6 +287,11 @@ const char* coverageExpression(Coverage coverage) {
     return "insideAny(fromOrigin(), vOuter) - insideAny(fromOrigin(), vInner)";
   case Coverage::Box:
     return "insideBox(fromOrigin(), vOuter) - insideBox(fromOrigin(), vInner)";
+  case Coverage::Quad:
+  case Coverage::Arrow:
+  case Coverage::Strip:
+  case Coverage::Elbow:
+    return pathExpression(coverage);
   case Coverage::Whole:
     break;
   }
@@ -286,11 +310,15 @@ std::string preamble(const ProgramKind& kind) {
                      "#define precise\n"
                      "#endif\n";
   if (kind.coverage == Coverage::Whole) text += "#define WHOLE\n";
-  const bool arcs = kind.coverage == Coverage::Disc || kind.coverage == Coverage::DiscOnGround ||
-                    kind.coverage == Coverage::Ring;
-  if (kind.paint != PaintSource::Color || (!arcs && kind.coverage != Coverage::Whole))
-    text += "#define HAS_ORIGIN\n";
-  if (kind.coverage != Coverage::Disc && kind.coverage != Coverage::Whole) text += "#define HAS_INNER\n";
+  const Coverage coverage = kind.coverage;
+  const bool absolute = coverage == Coverage::Disc || coverage == Coverage::DiscOnGround ||
+                        coverage == Coverage::Ring || coverage == Coverage::Strip ||
+                        coverage == Coverage::Whole;
+  if (kind.paint != PaintSource::Color || !absolute) text += "#define HAS_ORIGIN\n";
+  if (coverage != Coverage::Disc && coverage != Coverage::Strip && coverage != Coverage::Whole)
+    text += "#define HAS_INNER\n";
+  if (coverage == Coverage::Arrow || coverage == Coverage::Strip || coverage == Coverage::Elbow)
+    text += "#define HAS_MORE\n";
   if (kind.paint != PaintSource::Color) text += "#define PATTERN\n";
   if (kind.footprint == Footprint::Point) text += "#define POINT\n";
   text += fmt::format("#define TAPS {}\n", kind.paint == PaintSource::Reduced ? 3 : 2);
