@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -113,6 +114,7 @@ Entries baseOf(const std::string& table) {
       {"replay", {{"trace", "\"student.csv\""}}},
       {"replay.look", {{"id", "2"}}},
       {"golden", {{"at", "[0.5]"}}},
+      {"ruler", {{"from", "[10, 20]"}, {"to", "[30, 40]"}}},
   };
   const auto found = bases.find(table);
   return found == bases.end() ? Entries{} : found->second;
@@ -148,6 +150,7 @@ Entries with(const std::string& table, const std::string& key, const std::string
   if (table == "replay.look" && key == "group") drop({"id"});
   if (table == "golden" && key == "every") drop({"at"});
   if (table == "random") drop({"uniform"});
+  if (table == "ghost" && key == "fade") set(entries, "length", "1");
   if (table == "stroke" && (key == "anchor" || key == "proportional")) set(entries, "image", "\"image.png\"");
   if ((table == "fill" || table == "stroke") && key == "proportional") set(entries, "anchor", "[0, 0, 1, 1]");
   if (!key.empty()) set(entries, key, value);
@@ -171,8 +174,20 @@ std::string sceneWith(const std::string& table, const Entries& entries) {
   if (table == "stroke") return spawn + "stroke = { " + inlined + " }\n";
   if (table == "random") return spawn + "vx = { " + inlined + " }\n";
   if (table.starts_with("force")) return body + "[[force]]\n" + lines;
-  const bool many = table == "body" || table == "spawn" || table == "launch" || table == "collide";
+  static const std::set<std::string> tables = {"body",  "spawn",        "launch",  "collide",
+                                               "trail", "ghost",        "outline", "mark",
+                                               "arrow", "contact_mark", "ruler",   "panel"};
+  const bool many = tables.contains(table);
+  if (table == "panels") return body + "[[panel]]\n[[panel]]\n[panels]\n" + lines;
   return body + (many ? "[[" + table + "]]\n" : "[" + table + "]\n") + lines;
+}
+
+/// The entries that a table of which there are many needs, as a table in braces has them.
+std::string tableOf(const std::string& key) {
+  std::string table;
+  for (const auto& [name, value] : baseOf(key == "force" ? "force.drag" : key))
+    table += fmt::format("{}{} = {}", table.empty() ? "" : ", ", name, value);
+  return table;
 }
 
 /// A value of the documented type.
@@ -196,6 +211,7 @@ std::string valueOf(const DocumentedKey& key) {
       {"file or list", "\"image.png\""},
       {"integer or list", "[5, 6]"},
       {"[x, y] or name", "\"b\""},
+      {"name or list", "[\"b\", \"bodies\"]"},
       {"[group, group]", "[\"bodies\", \"bodies\"]"},
       {"expression", "\"x + 1\""},
       {"table", "{}"},
@@ -203,9 +219,15 @@ std::string valueOf(const DocumentedKey& key) {
   // Words and truths other than the default, so that they have an effect.
   static const std::map<std::string, std::string> words = {
       {"integrator", "rk4"},  {"shape", "circle"}, {"align", "inside"},      {"count", "alive"},
-      {"response", "report"}, {"type", "drag"},    {"when", "after-update"},
+      {"response", "report"}, {"type", "drag"},    {"when", "after-update"}, {"quantity", "force"},
   };
   if (key.type == "boolean") return key.defaultText == "true" ? "false" : "true";
+  if (key.table == "panel" && key.type == "tables") return "[{ " + tableOf(key.key) + " }]";
+  if (key.key == "panels") return "{ gap = 2 }\npanel = [{}]";
+  if (key.key == "layout") return "\"overlaid\"";
+  if (key.table == "panels" && key.key == "size") return "[900, 700]";
+  if (key.key == "layer") return key.defaultText == "\"front\"" ? "\"behind\"" : "\"front\"";
+  if (key.table == "mark" && key.key == "shape") return "\"dot\"";
   if (key.key == "leaving") return key.defaultText == "\"keep\"" ? "\"remove\"" : "\"keep\"";
   if (key.type == "choice") return '"' + words.at(key.key) + '"';
   if (key.key == "name") return "\"another\"";
@@ -218,12 +240,7 @@ std::string valueOf(const DocumentedKey& key) {
   if (key.type == "file") return "\"image.png\"";
   if (key.type == "table" && key.key == "stroke") return "{ width = 2 }";
   if (key.type == "tables") {
-    Entries entries = baseOf(key.key == "collide" || key.key == "force" ? "" : key.key);
-    if (key.key == "force") entries = baseOf("force.drag");
-    std::string table;
-    for (const auto& [name, value] : entries)
-      table += fmt::format("{}{} = {}", table.empty() ? "" : ", ", name, value);
-    if (key.key != "collide") return "[{ " + table + " }]";
+    if (key.key != "collide") return "[{ " + tableOf(key.key) + " }]";
     // A rule needs a group that has a body.
     return "[{ between = [\"bodies\", \"bodies\"] }]\nbody = [{ center = [1, 2], radius = 3 }]";
   }

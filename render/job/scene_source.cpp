@@ -33,9 +33,19 @@ SceneSource::SceneSource(const Scene& scene, Viewport viewport)
       title_(scene.title),
       motion_(motionOf(scene)),
       painter_(viewport, scene.background),
+      history_(scene.overlays),
+      overlays_(scene.overlays, scene.world),
       fingerprint_(fingerprintOf(scene)) {
   // The painter numbers looks as the scene does, so Body::look needs no translation.
   for (const Look& look : scene.looks) painter_.addLook(look);
+  if (!scene.panels.panels.empty()) {
+    panels_ = std::make_unique<PanelSet>(scene, painter_.viewport());
+    Fingerprint both;
+    both.add(static_cast<std::int64_t>(fingerprint_));
+    both.add(static_cast<std::int64_t>(panels_->fingerprint()));
+    fingerprint_ = both.value();
+  }
+  note();
 }
 
 std::int64_t SceneSource::frame() const {
@@ -44,14 +54,44 @@ std::int64_t SceneSource::frame() const {
 
 void SceneSource::step() {
   std::visit([tick = clock_.tick(frame() + 1)](auto& motion) { motion.step(tick); }, motion_);
+  if (panels_ != nullptr) panels_->stepTo(time());
+  note();
+}
+
+void SceneSource::note() {
+  const auto* world = std::get_if<World>(&motion_);
+  history_.note(time(), bodies(), world != nullptr ? world->events() : std::span<const Event>());
 }
 
 void SceneSource::draw(Picture& picture) const {
   painter_.begin(picture);
-  for (const Body& body : bodies()) painter_.body(picture, body, body.look);
+  paint(picture);
+}
+
+void SceneSource::paint(Picture& picture) const {
+  if (panels_ != nullptr) {
+    panels_->draw(picture);
+    return;
+  }
+  const OverlayPainter::Now now{time(), bodies(), history_, painter_};
+  overlays_.paint(picture, OverlayLayer::Behind, now);
+  for (const Body& body : kept_.empty() ? bodies() : std::span<const Body>(kept_))
+    painter_.body(picture, body, body.look);
+  overlays_.paint(picture, OverlayLayer::Front, now);
+}
+
+void SceneSource::keepMoment() {
+  if (panels_ != nullptr) panels_->keepMoment();
+  for (const Body& body : bodies()) {
+    const auto [place, isNew] = keptAt_.try_emplace(body.id, body.position);
+    if (!isNew && place->second == body.position) continue;
+    place->second = body.position;
+    kept_.push_back(body);
+  }
 }
 
 std::uint64_t SceneSource::stateHash() const {
+  if (panels_ != nullptr) return panels_->stateHash();
   return std::visit([](const auto& motion) { return motion.stateHash(); }, motion_);
 }
 

@@ -4,7 +4,6 @@
 #include "src/sim/error.h"
 
 #include <cmath>
-#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -38,20 +37,14 @@ Still drawStill(SceneSource& source, double at, int strobe) {
   const Clock& clock = source.clock();
   requireWithin(clock, at);
 
-  Picture picture;
-  source.painter().begin(picture);
-  std::unordered_map<std::uint32_t, Vec2> drawnAt; // last drawn position by body
   for (int moment = 0; moment < strobe; ++moment) {
     const double share = strobe == 1 ? 1.0 : static_cast<double>(moment) / static_cast<double>(strobe - 1);
     const std::int64_t frame = clock.frameAt(at * share + kRounding);
     while (source.frame() < frame) source.step();
-    for (const Body& body : source.bodies()) {
-      const auto [place, isNew] = drawnAt.try_emplace(body.id, body.position);
-      if (!isNew && place->second == body.position) continue;
-      place->second = body.position;
-      source.painter().body(picture, body, body.look);
-    }
+    if (strobe > 1) source.keepMoment();
   }
+  Picture picture;
+  source.draw(picture);
 
   Still still;
   still.alpha = picture.background.a != 255;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/stage/node.h"
+#include "src/scene/overlay.h"
 #include "src/sim/clock.h"
 #include "src/sim/random.h"
 
@@ -39,6 +40,17 @@ public:
   [[nodiscard]] bool contains(const Node& node) const;
   [[nodiscard]] std::size_t count() const { return entries_.size(); } ///< shapes on the stage
 
+  // What is drawn over and under shapes, as scene files have it (scenes/README.md, Overlays). Each is for one
+  // shape, which it puts on the stage if need be, for as long as that stays; `style.of` is set here. Arrows
+  // show the velocity and the acceleration of a GameObject.
+  void addTrail(const Node& node, TrailOverlay style = {});
+  void addGhosts(const Node& node, GhostOverlay style = {});
+  void addOutline(const Node& node, OutlineOverlay style = {});
+  void addMark(const Node& node, MarkOverlay style = {});
+  void addArrow(const Node& node, ArrowOverlay style = {});
+  /// Lines at multiples of `style.step` px from the upper-left corner, which are axes.
+  void addGrid(GridOverlay style);
+
 private:
   friend class StageSource;
   struct Entry {
@@ -49,12 +61,16 @@ private:
   };
   static constexpr std::uint32_t kNoLook = 0xffffffffU;
 
+  BodySelection select(const Node& node);
+
   Settings settings_;
   Random random_;
   Tick now_;
   std::vector<Entry> entries_;
   std::vector<std::uint32_t> freeLooks_; ///< of shapes that were removed, to be used again
   std::uint32_t nextId_ = 0;
+  Overlays overlays_;
+  bool overlaysChanged_ = false;
 };
 
 } // namespace offstage

@@ -21,6 +21,13 @@ Settings checked(const Settings& settings) {
   return settings;
 }
 
+/// An exercise has no forces but what it computes itself, so an arrow shows a body's own acceleration.
+WorldSetup withoutForces() {
+  WorldSetup setup;
+  setup.gravity = Vec2::Zero();
+  return setup;
+}
+
 Clock makeClock(const Settings& settings, const RenderOptions& options) {
   const double duration = options.duration.value_or(settings.duration);
   if (options.dtLog) {
@@ -43,19 +50,47 @@ StageSource::StageSource(std::unique_ptr<Exercise> exercise, const RenderOptions
       clock_(makeClock(exercise_->settings(), options)),
       stage_(checked(exercise_->settings()), options.seed.value_or(exercise_->settings().seed)),
       painter_(options.viewport(stage_.width(), stage_.height(), options.scale.value_or(1.0)),
-               stage_.settings_.background) {
+               stage_.settings_.background),
+      history_(Overlays{}),
+      overlays_(Overlays{}, withoutForces()) {
   exercise_->start(stage_);
-  prepareLooks();
+  noteFrame();
 }
 
 void StageSource::step() {
   stage_.now_ = clock_.tick(stage_.frame() + 1);
   exercise_->frame(stage_, stage_.now_.dt);
+  noteFrame();
+}
+
+void StageSource::noteFrame() {
   prepareLooks();
+  if (stage_.overlaysChanged_) {
+    stage_.overlaysChanged_ = false;
+    history_.setOverlays(stage_.overlays_);
+    overlays_ = OverlayPainter(stage_.overlays_, withoutForces());
+  }
+  bodies_.clear();
+  for (const Stage::Entry& entry : stage_.entries_) {
+    const Node::State& node = *entry.node.state_;
+    Body body;
+    body.id = entry.id;
+    body.shape = node.shape;
+    body.position = node.position;
+    body.size = node.size;
+    body.radius = node.radius;
+    body.velocity = node.velocity;
+    body.acceleration = node.acceleration;
+    body.look = entry.look;
+    if (node.visible) bodies_.push_back(body);
+  }
+  history_.note(stage_.time(), bodies_, {});
 }
 
 void StageSource::draw(Picture& picture) const {
+  const OverlayPainter::Now now{stage_.time(), bodies_, history_, painter_};
   painter_.begin(picture);
+  overlays_.paint(picture, OverlayLayer::Behind, now);
   for (const Stage::Entry& entry : stage_.entries_) {
     const Node::State& node = *entry.node.state_;
     if (!node.visible) continue;
@@ -64,6 +99,7 @@ void StageSource::draw(Picture& picture) const {
     else
       painter_.rectangle(picture, node.position, node.size, entry.look);
   }
+  overlays_.paint(picture, OverlayLayer::Front, now);
 }
 
 std::uint64_t StageSource::stateHash() const {
@@ -85,7 +121,9 @@ void StageSource::prepareLooks() {
   for (Stage::Entry& entry : stage_.entries_) {
     const Node::State& node = *entry.node.state_;
     if (entry.look == Stage::kNoLook) {
-      if (stage_.freeLooks_.empty()) {
+      // Trails and ghosts of shapes that are gone still show their looks.
+      const bool remembers = !stage_.overlays_.trails.empty() || !stage_.overlays_.ghosts.empty();
+      if (stage_.freeLooks_.empty() || remembers) {
         entry.look = painter_.addLook(node.look);
       } else {
         entry.look = stage_.freeLooks_.back();

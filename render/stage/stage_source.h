@@ -1,11 +1,14 @@
 #pragma once
 
+#include "render/draw/overlay_history.h"
+#include "render/draw/overlay_painter.h"
 #include "render/draw/painter.h"
 #include "render/job/render_options.h"
 #include "render/job/source.h"
 #include "render/stage/exercise.h"
 
 #include <memory>
+#include <vector>
 
 namespace offstage {
 
@@ -28,11 +31,15 @@ public:
 private:
   /// Gives every shape whose look is new or has changed its place among the painter's looks.
   void prepareLooks();
+  void noteFrame(); ///< to what overlays remember
 
   std::unique_ptr<Exercise> exercise_;
   Clock clock_;
   Stage stage_;
   Painter painter_;
+  std::vector<Body> bodies_; ///< the shapes as overlays see them
+  OverlayHistory history_;
+  OverlayPainter overlays_;
 };
 
 } // namespace offstage

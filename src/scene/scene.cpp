@@ -2,6 +2,8 @@
 
 #include "src/scene/limits.h"
 #include "src/scene/parse_clock.h"
+#include "src/scene/parse_overlay.h"
+#include "src/scene/parse_panel.h"
 #include "src/scene/parse_replay.h"
 #include "src/scene/quote.h"
 #include "src/scene/scene_builder.h"
@@ -98,10 +100,21 @@ void parseTables(SceneBuilder& builder, const TomlValue& root, const SceneOverri
   parseEach(builder, top, "spawn", parseSpawn);
   parseEach(builder, top, "launch", parseLaunch);
   parseEach(builder, top, "collide", parseCollide);
+  parseOverlays(builder, top);
   const std::size_t errorsBefore = builder.errors.count();
   parseEach(builder, top, "force", parseForce);
   // Behind a wrong force, what has a closed form cannot be told.
   if (builder.errors.count() == errorsBefore) checkExactBodies(builder, errorsBefore == 0);
+}
+
+/// A scene from a tree, but for its panels.
+Scene parseWhole(const TomlValue& root, const std::filesystem::path& file, const SceneOverrides& overrides) {
+  SceneBuilder builder(file);
+  parseTables(builder, root, overrides);
+  builder.errors.throwIfAny();
+  if (builder.scene.world.groups.empty()) builder.scene.world.groups = WorldSetup{}.groups;
+  builder.scene.looks = builder.looks.take();
+  return std::move(builder.scene);
 }
 
 } // namespace
@@ -118,13 +131,13 @@ Scene parseScene(std::string_view text, const std::filesystem::path& file, const
   const auto root = parseToml(text, file.string(), syntaxError);
   if (!root) throw SceneError({syntaxError});
 
-  SceneBuilder builder(file);
-  parseTables(builder, *root, overrides);
-  builder.errors.throwIfAny();
-  if (builder.scene.world.groups.empty()) builder.scene.world.groups = WorldSetup{}.groups;
-  builder.scene.looks = builder.looks.take();
-  builder.scene.text = text;
-  return std::move(builder.scene);
+  Scene scene = parseWhole(*root, file, overrides);
+  const auto parse = [&](const TomlValue& tree, const SceneOverrides& own) {
+    return parseWhole(tree, file, own);
+  };
+  parsePanels(*root, overrides, parse, scene);
+  scene.text = text;
+  return scene;
 }
 
 } // namespace offstage

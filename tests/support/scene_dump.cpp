@@ -76,6 +76,48 @@ std::string dump(const Launch& launch) {
   return text;
 }
 
+std::string dump(const Color& color) {
+  return dump(Paint(color));
+}
+
+std::string dump(const std::optional<Color>& color) {
+  return color ? dump(*color) : "default";
+}
+
+std::string dump(const BodySelection& of) {
+  return fmt::format("of {} {} {}", of.all, fmt::join(of.bodies, ","), fmt::join(of.groups, ","));
+}
+
+std::string dump(const Overlays& o) {
+  std::string text = fmt::format("\nunits {} {} {}", o.units.pixels, dump(o.units.origin), o.units.yUp);
+  const auto layer = [](OverlayLayer which) { return static_cast<int>(which); };
+  for (const GridOverlay& g : o.grids)
+    text += fmt::format("\ngrid {} {} {} {} {} {}", g.step, g.width, dump(g.color), g.axes, dump(g.axisColor),
+                        layer(g.layer));
+  for (const TrailOverlay& t : o.trails)
+    text += fmt::format("\ntrail {} {} {} {} {} {} {}", dump(t.of), t.length, t.width, dump(t.color),
+                        t.opacity, t.fade, layer(t.layer));
+  for (const GhostOverlay& g : o.ghosts)
+    text += fmt::format("\nghost {} {} {} {} {} {}", dump(g.of), g.every, g.length, g.opacity, g.fade,
+                        layer(g.layer));
+  for (const OutlineOverlay& l : o.outlines)
+    text +=
+        fmt::format("\noutline {} {} {} {} {}", dump(l.of), l.margin, l.width, dump(l.color), layer(l.layer));
+  for (const MarkOverlay& m : o.marks)
+    text += fmt::format("\nmark {} {} {} {} {} {}", dump(m.of), static_cast<int>(m.shape), m.size, m.width,
+                        dump(m.color), layer(m.layer));
+  for (const ArrowOverlay& a : o.arrows)
+    text += fmt::format("\narrow {} {} {} {} {} {} {}", dump(a.of), static_cast<int>(a.quantity), a.scale,
+                        a.width, dump(a.color), a.opacity, layer(a.layer));
+  for (const ContactMarkOverlay& m : o.contactMarks)
+    text += fmt::format("\ncontact mark {} {} {} {} {} {} {}", dump(m.of), m.duration, m.length, m.width,
+                        dump(m.normal), dump(m.tangent), layer(m.layer));
+  for (const RulerOverlay& r : o.rulers)
+    text += fmt::format("\nruler {} {} {} {} {} {}", dump(r.from), dump(r.to), r.step, r.width, dump(r.color),
+                        layer(r.layer));
+  return text;
+}
+
 std::string dump(const Force& force) {
   struct Dump {
     std::string operator()(const DragForce& f) const {
@@ -121,6 +163,13 @@ std::string dump(const Scene& scene) {
                     rule.restitution, rule.separate, rule.approachingOnly);
   }
   for (const Force& force : world.forces) text += "\nforce " + dump(force);
+  text += dump(scene.overlays);
+  if (!scene.panels.panels.empty()) {
+    text += fmt::format("\npanels {} {} {} {}", static_cast<int>(scene.panels.layout), scene.panels.columns,
+                        scene.panels.gap, scene.panels.caption);
+    for (const Panel& panel : scene.panels.panels)
+      text += fmt::format("\npanel {} {}\n{}", panel.title, dump(panel.color), dump(*panel.scene));
+  }
   if (scene.golden) {
     const Tolerance& t = scene.golden->tolerance;
     text += fmt::format("\ngolden {} | {} {} {} {} {} {} {} {} {}", fmt::join(scene.golden->at, " "),
