@@ -115,6 +115,8 @@ Entries baseOf(const std::string& table) {
       {"replay.look", {{"id", "2"}}},
       {"golden", {{"at", "[0.5]"}}},
       {"ruler", {{"from", "[10, 20]"}, {"to", "[30, 40]"}}},
+      {"plot", {{"y", "\"energy\""}}},
+      {"text", {{"text", "\"b\""}, {"place", "\"top\""}}},
   };
   const auto found = bases.find(table);
   return found == bases.end() ? Entries{} : found->second;
@@ -151,6 +153,9 @@ Entries with(const std::string& table, const std::string& key, const std::string
   if (table == "golden" && key == "every") drop({"at"});
   if (table == "random") drop({"uniform"});
   if (table == "ghost" && key == "fade") set(entries, "length", "1");
+  if (table == "text" && key == "at") drop({"place"});
+  if (table == "text" && key == "padding") set(entries, "background", "\"red\"");
+  if (table == "text" && key == "outline_width") set(entries, "outline", "\"red\"");
   if (table == "stroke" && (key == "anchor" || key == "proportional")) set(entries, "image", "\"image.png\"");
   if ((table == "fill" || table == "stroke") && key == "proportional") set(entries, "anchor", "[0, 0, 1, 1]");
   if (!key.empty()) set(entries, key, value);
@@ -174,9 +179,9 @@ std::string sceneWith(const std::string& table, const Entries& entries) {
   if (table == "stroke") return spawn + "stroke = { " + inlined + " }\n";
   if (table == "random") return spawn + "vx = { " + inlined + " }\n";
   if (table.starts_with("force")) return body + "[[force]]\n" + lines;
-  static const std::set<std::string> tables = {"body",  "spawn",        "launch",  "collide",
-                                               "trail", "ghost",        "outline", "mark",
-                                               "arrow", "contact_mark", "ruler",   "panel"};
+  static const std::set<std::string> tables = {"body",  "spawn",   "launch", "collide", "trail",
+                                               "ghost", "outline", "mark",   "arrow",   "contact_mark",
+                                               "ruler", "panel",   "plot",   "text"};
   const bool many = tables.contains(table);
   if (table == "panels") return body + "[[panel]]\n[[panel]]\n[panels]\n" + lines;
   return body + (many ? "[[" + table + "]]\n" : "[" + table + "]\n") + lines;
@@ -211,24 +216,35 @@ std::string valueOf(const DocumentedKey& key) {
       {"file or list", "\"image.png\""},
       {"integer or list", "[5, 6]"},
       {"[x, y] or name", "\"b\""},
+      {"value or list", "[\"b.x\", \"t\"]"},
+      {"string or list", "\"b\""},
+      {"colour or list", "[\"red\"]"},
       {"name or list", "[\"b\", \"bodies\"]"},
       {"[group, group]", "[\"bodies\", \"bodies\"]"},
       {"expression", "\"x + 1\""},
+      {"choice or file", "\"mono\""},
       {"table", "{}"},
   };
   // Words and truths other than the default, so that they have an effect.
   static const std::map<std::string, std::string> words = {
-      {"integrator", "rk4"},  {"shape", "circle"}, {"align", "inside"},      {"count", "alive"},
-      {"response", "report"}, {"type", "drag"},    {"when", "after-update"}, {"quantity", "force"},
+      {"quantity", "force"}, {"integrator", "rk4"},  {"shape", "circle"}, {"align", "inside"},
+      {"count", "alive"},    {"response", "report"}, {"type", "drag"},    {"when", "after-update"},
+      {"place", "bottom"},   {"anchor", "left"},
   };
   if (key.type == "boolean") return key.defaultText == "true" ? "false" : "true";
   if (key.table == "panel" && key.type == "tables") return "[{ " + tableOf(key.key) + " }]";
   if (key.key == "panels") return "{ gap = 2 }\npanel = [{}]";
   if (key.key == "layout") return "\"overlaid\"";
+  if (key.key == "x_scale" || key.key == "y_scale") return "\"log\"";
+  if (key.table == "plot" && key.key == "area") return "[10, 20, 300, 200]";
+  if (key.table == "plot" && key.key == "legend") return "true";
+  if (key.table == "plot" && key.key == "x") return "[\"b.x\"]";
   if (key.table == "panels" && key.key == "size") return "[900, 700]";
   if (key.key == "layer") return key.defaultText == "\"front\"" ? "\"behind\"" : "\"front\"";
   if (key.table == "mark" && key.key == "shape") return "\"dot\"";
   if (key.key == "leaving") return key.defaultText == "\"keep\"" ? "\"remove\"" : "\"keep\"";
+  if (key.table == "text" && key.key == "align") return "\"right\"";
+  if (key.table == "text" && key.key == "size") return "20.5";
   if (key.type == "choice") return '"' + words.at(key.key) + '"';
   if (key.key == "name") return "\"another\"";
   if (key.key == "recorded") return "\"log.dt\"";

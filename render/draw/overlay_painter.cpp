@@ -1,11 +1,14 @@
 #include "render/draw/overlay_painter.h"
 
+#include "render/draw/axis.h"
 #include "render/draw/pen.h"
 #include "src/scene/palette.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+
+#include <fmt/format.h>
 
 namespace offstage {
 namespace {
@@ -15,6 +18,13 @@ constexpr double kLeastArrow = 1.0;   ///< px: a shorter one is not drawn
 constexpr double kTick = 5.0;         ///< px to either side of a ruler
 constexpr double kLongTick = 9.0;     ///< px: every fifth, and the ends
 constexpr double kMostTicks = 2000.0;
+
+/// A share of 0 … 1 in steps that are not seen. A trail's pieces so change their colour only every few
+/// frames, each at its own time, and most of it need not be drawn again.
+double fadeStep(double share) {
+  constexpr double kSteps = 48.0;
+  return (std::floor(std::clamp(share, 0.0, 1.0) * kSteps) + 0.5) / kSteps;
+}
 
 Rgba8 bytes(const Color& color, double opacity = 1.0) {
   return {color.red, color.green, color.blue, color.alphaByte(opacity)};
@@ -69,6 +79,10 @@ std::optional<Vec2> placeOf(const Anchor& anchor, std::span<const Body> bodies) 
   return middleOf(*body);
 }
 
+Vec2 toPane(const Viewport& viewport, const Vec2& p) {
+  return (p - viewport.offset) / viewport.scale;
+}
+
 } // namespace
 
 void OverlayPainter::paint(Picture& picture, OverlayLayer layer, const Now& now) const {
@@ -120,6 +134,40 @@ void OverlayPainter::grid(Picture& picture, const GridOverlay& grid, const Now& 
   }
   for (int axis = 0; axis < 2; ++axis)
     if (grid.axes) line(axisPen, axis, origin[axis], 2.0 * width);
+  if (grid.labels) gridLabels(picture, grid, now);
+}
+
+/// Numbers beside the axes, or beside the pane's nearest edge where an axis is not in sight. Of lines that
+/// stand closer than three em only every second, fifth or tenth … has one.
+void OverlayPainter::gridLabels(Picture& picture, const GridOverlay& grid, const Now& now) const {
+  const Viewport& viewport = now.painter.viewport();
+  const OverlayUnits& units = overlays_.units;
+  const Vec2 low = toPane(viewport, Vec2(viewport.clip.left, viewport.clip.top));
+  const Vec2 high = toPane(viewport, Vec2(viewport.clip.right, viewport.clip.bottom));
+  const double em = grid.labelSize;
+  const double every = roundStep(std::max(3.0 * em / grid.step, 1.0));
+  const double step = grid.step / units.pixels;
+  TextLook look;
+  look.size = em;
+  look.color = grid.axisColor;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double across = std::clamp(units.origin[1 - axis], low[1 - axis], high[1 - axis]);
+    // Below a horizontal axis and left of a vertical one, but inside the pane.
+    const bool outside = axis == 0 ? across + 2.0 * em > high[1] : across - 3.0 * em < low[0];
+    if (axis == 0) look.anchor = outside ? NinePosition::Bottom : NinePosition::Top;
+    if (axis == 1) look.anchor = outside ? NinePosition::Left : NinePosition::Right;
+    const double away = (axis == 0) == outside ? -0.4 * em : 0.4 * em;
+    const double sign = axis == 1 && units.yUp ? -1.0 : 1.0;
+    for (double k = std::ceil((low[axis] - units.origin[axis]) / grid.step / every) * every;
+         units.origin[axis] + k * grid.step <= high[axis]; k += every) {
+      const double at = units.origin[axis] + k * grid.step;
+      if (k == 0.0 || at < low[axis] + em || at > high[axis] - em) continue;
+      Vec2 place;
+      place[axis] = at;
+      place[1 - axis] = across + away;
+      now.texts.draw(picture, tickLabel(sign * k * step, every * step), look, place);
+    }
+  }
 }
 
 void OverlayPainter::trail(Picture& picture, const TrailOverlay& trail, const Now& now) const {
@@ -137,7 +185,7 @@ void OverlayPainter::trail(Picture& picture, const TrailOverlay& trail, const No
     const auto add = [&](const OverlayHistory::Place& place) {
       if (!points.empty()) {
         const double age = now.time - 0.5 * (last + place.time);
-        colors.push_back(trail.fade ? faded(color, 1.0 - age / trail.length) : color);
+        colors.push_back(trail.fade ? faded(color, fadeStep(1.0 - age / trail.length)) : color);
       }
       points.push_back(toOutput(viewport, place.at));
       last = place.time;
@@ -235,6 +283,18 @@ void OverlayPainter::ruler(Picture& picture, const RulerOverlay& ruler, const No
   tick(whole, kLongTick);
   for (double k = 1.0; k * ruler.step < whole - 1e-6 * ruler.step && k <= kMostTicks; k += 1.0)
     tick(k * ruler.step, std::fmod(k, 5.0) == 0.0 ? kLongTick : kTick);
+  if (ruler.unit.empty()) return;
+  const double unit = overlays_.units.pixels;
+  const std::string text = fmt::format("{} {}", tickLabel(whole / unit, unit > 1.0 ? 0.01 : 1.0), ruler.unit);
+  // Beside the middle, on the side that is to the right or above.
+  Vec2 beside(-ahead.y(), ahead.x());
+  if (beside.x() < -1e-9 || (std::abs(beside.x()) <= 1e-9 && beside.y() > 0.0)) beside = -beside;
+  TextLook look;
+  look.size = ruler.labelSize;
+  look.color = ruler.color;
+  look.anchor = std::abs(beside.x()) > 0.5 ? NinePosition::Left : NinePosition::Bottom;
+  const double away = kLongTick + 0.3 * ruler.labelSize;
+  now.texts.draw(picture, text, look, *from + ahead * (0.5 * whole) + beside * away, 1.0, true);
 }
 
 } // namespace offstage

@@ -2,6 +2,7 @@
 
 #include "render/draw/overlay_history.h"
 #include "render/draw/painter.h"
+#include "render/draw/text_painter.h"
 #include "src/scene/overlay.h"
 #include "src/sim/force_field.h"
 #include "src/sim/world_setup.h"
@@ -22,12 +23,14 @@ public:
     double time; ///< s
     std::span<const Body> bodies;
     const OverlayHistory& history;
-    const Painter& painter; ///< its looks are those of Body::look
+    const Painter& painter;   ///< its looks are those of Body::look
+    const TextPainter& texts; ///< of the same viewport
   };
   void paint(Picture& picture, OverlayLayer layer, const Now& now) const;
 
 private:
   void grid(Picture& picture, const GridOverlay& grid, const Now& now) const;
+  void gridLabels(Picture& picture, const GridOverlay& grid, const Now& now) const;
   void trail(Picture& picture, const TrailOverlay& trail, const Now& now) const;
   void ghosts(Picture& picture, std::size_t index, const Now& now) const;
   void arrows(Picture& picture, const ArrowOverlay& arrow, const Now& now) const;

@@ -7,7 +7,8 @@
 namespace offstage {
 namespace {
 
-constexpr double kFarthest = 32768.0; ///< px
+constexpr double kFarthest = 32768.0;   ///< px
+constexpr double kMostDashes = 10000.0; ///< more are grey
 
 bool near(const Vec2& point) { // false for NaN
   return std::abs(point.x()) <= kFarthest && std::abs(point.y()) <= kFarthest;
@@ -55,6 +56,7 @@ void Pen::dashes(const Vec2& from, const Vec2& to, double dash, double gap) {
   const double period = dash + gap;
   // A whole number of periods that end in the middle of dashes at both ends, the period stretched to fit.
   const double periods = std::max(std::round(whole / period), 1.0);
+  if (periods > kMostDashes) return line(from, to);
   const double step = whole / periods;
   const double half = 0.5 * std::min(dash, step);
   for (double i = 0.0; i <= periods; i += 1.0) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/draw/image.h"
+#include "render/draw/mask.h"
 #include "src/sim/vec.h"
 
 #include <cstdint>
@@ -57,6 +58,7 @@ struct Primitive {
     Ring,    ///< inner < |p − center| < outer
     Box,     ///< low < p < high
     BoxRing, ///< inside low…high and not inside innerLow…innerHigh
+    Mask,    ///< a mask at whole pixels: low its upper-left corner, high − low its size
     Quad,    ///< the convex quadrilateral low, high, innerLow, innerHigh; a triangle repeats a corner
     /// From low to high: a shaft of half the width `outer`, then a triangular head, innerLow.x long and of
     /// half the width innerLow.y. With a head as long as the whole, a triangle.
@@ -74,6 +76,7 @@ struct Primitive {
   Kind kind = Kind::Disc;
   Rgba8 color;               ///< with a pattern, only .a is used: it multiplies the image's alpha
   std::int32_t pattern = -1; ///< index into Picture::patterns, or −1; of the kinds up to BoxRing only
+  std::int32_t mask = -1;    ///< of a Mask: index into Picture::masks
   std::int32_t clip = -1;    ///< index into Picture::clips, or −1: Picture::clip holds alone
   Vec2 center = Vec2::Zero();
   double outer = 0.0; ///< ≥ 0
@@ -92,12 +95,14 @@ struct Picture {
   PixelRect clip{0, 0, std::numeric_limits<int>::max(), std::numeric_limits<int>::max()};
   std::vector<Primitive> primitives;
   std::vector<PlacedPattern> patterns;
-  std::vector<PixelRect> clips; ///< narrower ones, for single primitives: panels, plots
+  std::vector<PixelRect> clips;                   ///< narrower ones, for single primitives: panels, plots
+  std::vector<std::shared_ptr<const Mask>> masks; ///< known by their address: the same mask, the same object
 
   void clear() {
     primitives.clear();
     patterns.clear();
     clips.clear();
+    masks.clear();
   } ///< keeps the memory for the next frame
 };
 

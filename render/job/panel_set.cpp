@@ -1,5 +1,6 @@
 #include "render/job/panel_set.h"
 
+#include "render/draw/pen.h"
 #include "render/job/fingerprint.h"
 #include "render/job/scene_source.h"
 #include "render/raster/tile_set.h"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace offstage {
 namespace {
@@ -34,10 +36,11 @@ Viewport viewportOf(const Scene& scene, const Viewport& whole, std::size_t index
 
 } // namespace
 
-PanelSet::PanelSet(const Scene& scene, const Viewport& whole) {
+PanelSet::PanelSet(const Scene& scene, const Viewport& whole) : viewport_(whole), texts_(whole) {
   for (std::size_t i = 0; i < scene.panels.panels.size(); ++i)
     worlds_.push_back(
         std::make_unique<SceneSource>(*scene.panels.panels[i].scene, viewportOf(scene, whole, i)));
+  makeCaptions(scene);
   if (scene.panels.layout == Panels::Layout::Overlaid) return;
   frameWidth_ = std::max(std::round(whole.scale), 1.0);
   const Color ink = inkOn(scene.background, 0.35);
@@ -57,6 +60,46 @@ void PanelSet::frame(Picture& picture, const PixelRect& pane) const {
   line.low = line.innerLow - Vec2::Constant(frameWidth_);
   line.high = line.innerHigh + Vec2::Constant(frameWidth_);
   picture.primitives.push_back(line);
+}
+
+/// Above each pane; of overlaid panels a legend, line below line.
+void PanelSet::makeCaptions(const Scene& scene) {
+  const Panels& panels = scene.panels;
+  const bool overlaid = panels.layout == Panels::Layout::Overlaid;
+  const double line = overlaid ? panels.pane[1] / 12.0 : panels.caption;
+  if (!(line > 0.0)) return;
+  for (std::size_t i = 0; i < panels.panels.size(); ++i) {
+    const Panel& panel = panels.panels[i];
+    if (panel.title.empty()) continue;
+    Caption caption{
+        panel.title, {}, Vec2(line, line * (0.8 + static_cast<double>(captions_.size()))), panel.color};
+    caption.look.size = 0.6 * line;
+    caption.look.color = inkOn(scene.background);
+    caption.look.anchor = overlaid ? NinePosition::Left : NinePosition::Center;
+    const auto place = panels.place(i, scene.size[0], scene.size[1]);
+    if (!overlaid) caption.at = Vec2(place[0] + 0.5 * place[2], place[1] - 0.5 * line);
+    texts_.require(caption.look, caption.text);
+    captions_.push_back(std::move(caption));
+  }
+}
+
+/// A panel's colour stands before its title as a disc; both together are in the middle.
+void PanelSet::drawCaptions(Picture& picture) const {
+  for (const Caption& caption : captions_) {
+    Vec2 at = caption.at;
+    if (caption.dot) {
+      const double radius = 0.3 * caption.look.size;
+      const bool centered = caption.look.anchor == NinePosition::Center;
+      const double width = texts_.measure(caption.text, caption.look).x();
+      const double left = centered ? at.x() - 0.5 * (width + 3.0 * radius) : at.x();
+      const Vec2 dot = Vec2(left + radius, at.y()) * viewport_.scale + viewport_.offset;
+      const Color& color = *caption.dot;
+      Pen(picture, 1.0, {color.red, color.green, color.blue, color.alphaByte()})
+          .disc(dot, radius * viewport_.scale);
+      at.x() += centered ? 1.5 * radius : 3.0 * radius;
+    }
+    texts_.draw(picture, caption.text, caption.look, at);
+  }
 }
 
 void PanelSet::stepTo(double time) {
@@ -82,6 +125,7 @@ void PanelSet::draw(Picture& picture) const {
       if (picture.primitives[i].clip < 0) picture.primitives[i].clip = pane;
     frame(picture, picture.clips[static_cast<std::size_t>(pane)]);
   }
+  drawCaptions(picture);
 }
 
 std::uint64_t PanelSet::stateHash() const {

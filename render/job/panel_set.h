@@ -1,10 +1,13 @@
 #pragma once
 
 #include "render/draw/picture.h"
+#include "render/draw/text_painter.h"
 #include "src/scene/scene.h"
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace offstage {
@@ -32,10 +35,21 @@ public:
 
 private:
   void frame(Picture& picture, const PixelRect& pane) const;
+  void makeCaptions(const Scene& scene);
+  void drawCaptions(Picture& picture) const;
 
   std::vector<std::unique_ptr<SceneSource>> worlds_;
   double frameWidth_ = 0.0; ///< px: of the line around each pane; 0: none
   Rgba8 frameColor_;
+  struct Caption {
+    std::string text;
+    TextLook look;
+    Vec2 at;                  ///< px of the whole picture
+    std::optional<Color> dot; ///< before the text, in this colour
+  };
+  Viewport viewport_; ///< of the whole picture
+  TextPainter texts_;
+  std::vector<Caption> captions_;
 };
 
 } // namespace offstage

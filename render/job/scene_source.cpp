@@ -22,6 +22,7 @@ std::uint64_t fingerprintOf(const Scene& scene) {
     if (look.fill) addPaint(fingerprint, *look.fill);
     if (look.stroke) addPaint(fingerprint, look.stroke->paint);
   }
+  for (const TextItem& item : scene.texts) fingerprint.addFile(fontFile(item.look.font));
   if (scene.replay) fingerprint.addFile(scene.replay->trace.file);
   return fingerprint.value();
 }
@@ -35,6 +36,9 @@ SceneSource::SceneSource(const Scene& scene, Viewport viewport)
       painter_(viewport, scene.background),
       history_(scene.overlays),
       overlays_(scene.overlays, scene.world),
+      textPainter_(viewport),
+      plots_(scene, viewport, textPainter_),
+      texts_(scene, viewport),
       fingerprint_(fingerprintOf(scene)) {
   // The painter numbers looks as the scene does, so Body::look needs no translation.
   for (const Look& look : scene.looks) painter_.addLook(look);
@@ -73,11 +77,13 @@ void SceneSource::paint(Picture& picture) const {
     panels_->draw(picture);
     return;
   }
-  const OverlayPainter::Now now{time(), bodies(), history_, painter_};
+  const OverlayPainter::Now now{time(), bodies(), history_, painter_, textPainter_};
   overlays_.paint(picture, OverlayLayer::Behind, now);
   for (const Body& body : kept_.empty() ? bodies() : std::span<const Body>(kept_))
     painter_.body(picture, body, body.look);
   overlays_.paint(picture, OverlayLayer::Front, now);
+  plots_.draw(picture, frame());
+  texts_.draw(picture, snapshot());
 }
 
 void SceneSource::keepMoment() {

@@ -3,6 +3,8 @@
 #include "render/draw/overlay_history.h"
 #include "render/draw/overlay_painter.h"
 #include "render/draw/painter.h"
+#include "render/draw/plot_set.h"
+#include "render/draw/scene_texts.h"
 #include "render/job/panel_set.h"
 #include "render/job/source.h"
 #include "src/scene/scene.h"
@@ -52,10 +54,13 @@ private:
   Painter painter_;
   OverlayHistory history_;
   OverlayPainter overlays_;
+  TextPainter textPainter_;
+  PlotSet plots_;
   std::unique_ptr<PanelSet> panels_; ///< null: one world, `motion_`; else motion_ is not drawn
   std::vector<Body> kept_;
   std::unordered_map<std::uint32_t, Vec2> keptAt_; ///< position by body
-  std::uint64_t fingerprint_;                      ///< of the scene's text, its clock and its images
+  SceneTexts texts_;
+  std::uint64_t fingerprint_; ///< of the scene's text, its clock, its images and its fonts
 };
 
 } // namespace offstage

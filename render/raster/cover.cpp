@@ -63,6 +63,7 @@ CoverTest::CoverTest(const Primitive& primitive) {
   if (outline_ == Outline::Box) {
     boxOutside_ = boundsOf(primitive.low, primitive.high, kMargin);
     boxInside_ = boundsOf(primitive.low, primitive.high, -kMargin);
+    if (primitive.kind == Primitive::Kind::Mask) boxInside_ = nowhere();
     holed_ = primitive.kind == Primitive::Kind::BoxRing;
     if (holed_) {
       boxRim_ = boundsOf(primitive.innerLow, primitive.innerHigh, kMargin);
@@ -117,6 +118,12 @@ Cover CoverTest::ofPath(const PixelRect& rect) const {
       return Cover::Some;
   }
   return Cover::None;
+}
+
+/// Holds no rectangle: what a mask covers wholly is not asked, for letters hardly cover a tile.
+CoverTest::Bounds CoverTest::nowhere() {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return {kInfinity, kInfinity, -kInfinity, -kInfinity};
 }
 
 CoverTest::Bounds CoverTest::boundsOf(const Vec2& low, const Vec2& high, double grown) {

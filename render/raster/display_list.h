@@ -7,6 +7,7 @@
 #include "render/raster/tile_set.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace offstage {
@@ -30,6 +31,7 @@ struct DisplayList {
   std::vector<Primitive> primitives;
   std::vector<PlacedPattern> patterns;
   std::vector<PixelRect> clips;
+  std::vector<std::shared_ptr<const Mask>> masks;
   std::vector<Layer> layers; ///< one a primitive
 
   /// What a primitive is painted inside of: `clip`, and its own where it has one.

@@ -83,6 +83,13 @@ void setBox(const Primitive& primitive, const PixelRect& bounds, Drawable& drawa
   drawable.coverage = Coverage::Box;
 }
 
+/// Bounds and mask stand on whole pixels, so the mask's corner is the origin.
+void setMask(const Primitive& primitive, Drawable& drawable) {
+  drawable.instance.origin = {static_cast<std::int16_t>(primitive.low.x()),
+                              static_cast<std::int16_t>(primitive.low.y())};
+  drawable.coverage = Coverage::Mask;
+}
+
 } // namespace
 
 std::optional<Drawable> makeDrawable(const Primitive& primitive, const PixelRect& clip, int largestPoint) {
@@ -100,10 +107,13 @@ std::optional<Drawable> makeDrawable(const Primitive& primitive, const PixelRect
   Drawable drawable{};
   if (round) {
     setCircle(primitive, clip, drawable);
+  } else if (primitive.kind == Kind::Mask) {
+    setMask(primitive, drawable);
   } else {
     setBox(primitive, bounds, drawable);
   }
-  finish(primitive, bounds, clip, largestPoint, drawable);
+  // Beyond its bounds a mask has no texels, so they are not made square.
+  finish(primitive, bounds, clip, primitive.kind == Kind::Mask ? 0 : largestPoint, drawable);
   return drawable;
 }
 

@@ -22,8 +22,9 @@ enum class Coverage : std::uint8_t {
   Elbow,        ///< a bent or round-ended piece of a path
   DiscOnGround, ///< a Disc laid over one known opaque colour, which it replaces without blending
   Whole, ///< every pixel wholly: what was there is replaced by Instance::color as it is, without blending
+  Mask,  ///< a texel of the store a pixel
 };
-inline constexpr std::size_t kCoverageCount = 11;
+inline constexpr std::size_t kCoverageCount = 12;
 
 /// From this radius on, the edge inside a pixel is taken as the parabola that osculates it, and integrated
 /// over four columns. Measured error against the exact area: at most 2.5/255.
@@ -54,7 +55,8 @@ struct Instance {
   /// The hole, in the same form; a box without one has low = high. DiscOnGround: r, g, b of the ground (0 …
   /// 255). Elbow: {to, half width, 1 if x and y are exchanged}.
   std::array<float, 4> inner{};
-  std::array<std::int32_t, 4> texels{}; ///< pattern: first texel in the store, width, height, 1 if it repeats
+  /// pattern: first texel in the store, width, height, 1 if it repeats; mask: first texel, width, height, 0
+  std::array<std::int32_t, 4> texels{};
   /// Pattern: texel coordinate at `origin`, then texels per px. Strip, Elbow: the first cut {n.x, n.y, c},
   /// then the second one's n.x: a pixel's centre p is in front of a cut where n.x·p.x + n.y·p.y + c ≥ 0.
   std::array<float, 4> texelMap{};

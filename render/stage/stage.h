@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/stage/node.h"
+#include "render/stage/text.h"
 #include "src/scene/overlay.h"
 #include "src/sim/clock.h"
 #include "src/sim/random.h"
@@ -50,6 +51,10 @@ public:
   void addArrow(const Node& node, ArrowOverlay style = {});
   /// Lines at multiples of `style.step` px from the upper-left corner, which are axes.
   void addGrid(GridOverlay style);
+  // The same for texts, which lie over all shapes.
+  void add(const Text& text);
+  void remove(const Text& text);
+  [[nodiscard]] bool contains(const Text& text) const;
 
 private:
   friend class StageSource;
@@ -67,6 +72,11 @@ private:
   Random random_;
   Tick now_;
   std::vector<Entry> entries_;
+  struct TextEntry {
+    Text text;
+    std::uint64_t checked = 0; ///< the version that was held against its font
+  };
+  std::vector<TextEntry> texts_;
   std::vector<std::uint32_t> freeLooks_; ///< of shapes that were removed, to be used again
   std::uint32_t nextId_ = 0;
   Overlays overlays_;

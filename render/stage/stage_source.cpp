@@ -2,6 +2,7 @@
 
 #include "render/job/fingerprint.h"
 #include "src/scene/dt_log.h"
+#include "src/scene/limits.h"
 #include "src/sim/error.h"
 #include "src/sim/state_hash.h"
 
@@ -52,7 +53,8 @@ StageSource::StageSource(std::unique_ptr<Exercise> exercise, const RenderOptions
       painter_(options.viewport(stage_.width(), stage_.height(), options.scale.value_or(1.0)),
                stage_.settings_.background),
       history_(Overlays{}),
-      overlays_(Overlays{}, withoutForces()) {
+      overlays_(Overlays{}, withoutForces()),
+      textPainter_(painter_.viewport()) {
   exercise_->start(stage_);
   noteFrame();
 }
@@ -65,6 +67,7 @@ void StageSource::step() {
 
 void StageSource::noteFrame() {
   prepareLooks();
+  checkTexts();
   if (stage_.overlaysChanged_) {
     stage_.overlaysChanged_ = false;
     history_.setOverlays(stage_.overlays_);
@@ -88,7 +91,7 @@ void StageSource::noteFrame() {
 }
 
 void StageSource::draw(Picture& picture) const {
-  const OverlayPainter::Now now{stage_.time(), bodies_, history_, painter_};
+  const OverlayPainter::Now now{stage_.time(), bodies_, history_, painter_, textPainter_};
   painter_.begin(picture);
   overlays_.paint(picture, OverlayLayer::Behind, now);
   for (const Stage::Entry& entry : stage_.entries_) {
@@ -100,6 +103,10 @@ void StageSource::draw(Picture& picture) const {
       painter_.rectangle(picture, node.position, node.size, entry.look);
   }
   overlays_.paint(picture, OverlayLayer::Front, now);
+  for (const Stage::TextEntry& entry : stage_.texts_) {
+    const Text::State& text = *entry.text.state_;
+    if (text.visible) textPainter_.draw(picture, text.text, text.look, text.position, 1.0, true);
+  }
 }
 
 std::uint64_t StageSource::stateHash() const {
@@ -115,6 +122,18 @@ std::uint64_t StageSource::fingerprint() const {
   Fingerprint fingerprint;
   fingerprint.add(clock_);
   return fingerprint.value();
+}
+
+void StageSource::checkTexts() {
+  for (Stage::TextEntry& entry : stage_.texts_) {
+    const Text::State& text = *entry.text.state_;
+    if (entry.checked == text.version) continue;
+    if (!(text.look.size >= kLeastTextSize && text.look.size <= kMostTextSize))
+      throw Error(ExitCode::BadInput, fmt::format("a text's size {} px is not from {} to {}", text.look.size,
+                                                  kLeastTextSize, kMostTextSize));
+    textPainter_.require(text.look, text.text);
+    entry.checked = text.version;
+  }
 }
 
 void StageSource::prepareLooks() {

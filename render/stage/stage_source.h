@@ -3,6 +3,7 @@
 #include "render/draw/overlay_history.h"
 #include "render/draw/overlay_painter.h"
 #include "render/draw/painter.h"
+#include "render/draw/text_painter.h"
 #include "render/job/render_options.h"
 #include "render/job/source.h"
 #include "render/stage/exercise.h"
@@ -32,6 +33,8 @@ private:
   /// Gives every shape whose look is new or has changed its place among the painter's looks.
   void prepareLooks();
   void noteFrame(); ///< to what overlays remember
+  /// Holds every new or changed text against its font.
+  void checkTexts();
 
   std::unique_ptr<Exercise> exercise_;
   Clock clock_;
@@ -40,6 +43,7 @@ private:
   std::vector<Body> bodies_; ///< the shapes as overlays see them
   OverlayHistory history_;
   OverlayPainter overlays_;
+  TextPainter textPainter_;
 };
 
 } // namespace offstage

@@ -25,6 +25,7 @@ Color arrowColor(ArrowQuantity quantity) {
 }
 
 double roundStep(double least) {
+  if (!(least > 0.0) || !std::isfinite(least)) return 1.0;
   double power = 1.0;
   while (power > least) power /= 10.0;
   while (power * 10.0 <= least) power *= 10.0;

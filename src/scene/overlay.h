@@ -114,7 +114,9 @@ struct GridOverlay {
   double width = 1.0; ///< px; an axis is twice as wide
   Color color{};      ///< default: ink, faint
   bool axes = true;
-  Color axisColor{}; ///< default: ink, less faint
+  Color axisColor{};       ///< default: ink, less faint
+  bool labels = false;     ///< numbers along the axes, in the scene's units
+  double labelSize = 13.0; ///< px
   OverlayLayer layer = OverlayLayer::Behind;
 };
 
@@ -122,9 +124,11 @@ struct GridOverlay {
 struct RulerOverlay {
   Anchor from{};
   Anchor to{};
-  double step = 1.0;  ///< px, > 0: between ticks; every fifth is longer
-  double width = 2.0; ///< px
-  Color color{};      ///< default: ink
+  double step = 1.0;       ///< px, > 0: between ticks; every fifth is longer
+  double width = 2.0;      ///< px
+  Color color{};           ///< default: ink
+  std::string unit{};      ///< written behind the length beside the ruler; empty: the length is not shown
+  double labelSize = 16.0; ///< px
   OverlayLayer layer = OverlayLayer::Front;
 };
 

@@ -73,7 +73,7 @@ BodySelection readSelection(SceneBuilder& builder, const TableReader& reader) {
 }
 
 Color inkOf(const SceneBuilder& builder, double opacity) {
-  return inkOn(builder.scene.background, opacity);
+  return inkOf(builder.scene.theme, builder.scene.background, opacity);
 }
 
 void readTrail(SceneBuilder& builder, const TableReader& reader) {
@@ -171,9 +171,11 @@ void readGrid(SceneBuilder& builder, const TableReader& reader) {
   const Scene& scene = builder.scene;
   grid.step = readStep(builder, reader, std::max(scene.size[0], scene.size[1]), 12.0);
   grid.width = reader.number("width", kPixels);
-  grid.color = givenColor(reader, "color").value_or(inkOf(builder, 0.12));
+  grid.color = givenColor(reader, "color").value_or(gridColorOf(scene.theme, scene.background));
   grid.axes = reader.boolean("axes");
   grid.axisColor = givenColor(reader, "axis_color").value_or(inkOf(builder, 0.45));
+  grid.labels = reader.boolean("labels");
+  grid.labelSize = reader.number("label_size", kPixels);
   grid.layer = reader.choice("layer", kLayers);
   builder.scene.overlays.grids.push_back(grid);
 }
@@ -187,6 +189,8 @@ void readRuler(SceneBuilder& builder, const TableReader& reader) {
   ruler.step = readStep(builder, reader, std::max(extent, 1.0), 10.0);
   ruler.width = reader.number("width", kPixels);
   ruler.color = givenColor(reader, "color").value_or(inkOf(builder, 0.8));
+  ruler.unit = reader.givenString("unit").value_or("");
+  ruler.labelSize = reader.number("label_size", kPixels);
   ruler.layer = reader.choice("layer", kLayers);
   if (!from || !to) return;
   ruler.from = *from;

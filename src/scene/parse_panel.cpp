@@ -151,6 +151,10 @@ void parsePanels(const TomlValue& root, const SceneOverrides& overrides,
   errors.throwIfAny();
   readLayout(root, errors, scene);
   errors.throwIfAny();
+  // All that is drawn is in the panels.
+  scene.overlays = {};
+  scene.plots.clear();
+  scene.texts.clear();
 }
 
 } // namespace offstage

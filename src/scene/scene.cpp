@@ -4,6 +4,7 @@
 #include "src/scene/parse_clock.h"
 #include "src/scene/parse_overlay.h"
 #include "src/scene/parse_panel.h"
+#include "src/scene/parse_plot.h"
 #include "src/scene/parse_replay.h"
 #include "src/scene/quote.h"
 #include "src/scene/scene_builder.h"
@@ -105,6 +106,9 @@ void parseTables(SceneBuilder& builder, const TomlValue& root, const SceneOverri
   parseEach(builder, top, "force", parseForce);
   // Behind a wrong force, what has a closed form cannot be told.
   if (builder.errors.count() == errorsBefore) checkExactBodies(builder, errorsBefore == 0);
+  // Plots and texts show values of what all others have named.
+  parseEach(builder, top, "plot", parsePlot);
+  parseEach(builder, top, "text", parseText);
 }
 
 /// A scene from a tree, but for its panels.

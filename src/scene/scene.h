@@ -4,7 +4,10 @@
 #include "src/scene/look.h"
 #include "src/scene/overlay.h"
 #include "src/scene/panel.h"
+#include "src/scene/plot.h"
 #include "src/scene/replay.h"
+#include "src/scene/text_item.h"
+#include "src/scene/theme.h"
 #include "src/sim/clock.h"
 #include "src/sim/world_setup.h"
 
@@ -32,9 +35,12 @@ struct Scene {
   std::vector<Look> looks;              ///< Body::look is an index into these
   std::vector<std::string> bodyNames;   ///< by id of WorldSetup::bodies; empty where unnamed
   Overlays overlays{};                  ///< what is drawn over and under the bodies
+  std::vector<Plot> plots{};            ///< drawn over the bodies, below the texts
   Panels panels{};                      ///< the worlds that are drawn instead of this one
   std::shared_ptr<const Replay> replay; ///< null: the world is simulated; else it is empty
   std::optional<GoldenMoments> golden;  ///< what `offstage golden` keeps of it
+  Theme theme;
+  std::vector<TextItem> texts; ///< drawn over the bodies, in this order
 };
 
 /// What a command line replaces in a scene, as if it were written there.

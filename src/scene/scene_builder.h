@@ -69,6 +69,7 @@ void parseSpawn(SceneBuilder& builder, const TomlValue& table);
 void parseLaunch(SceneBuilder& builder, const TomlValue& table);
 void parseCollide(SceneBuilder& builder, const TomlValue& table);
 void parseForce(SceneBuilder& builder, const TomlValue& table);
+void parseText(SceneBuilder& builder, const TomlValue& table);
 void parseGolden(SceneBuilder& builder, const TomlValue& table); ///< after the clock is known
 
 /// Reports each body, spawn and launch with the integrator "exact" whose motion has no closed form; after all

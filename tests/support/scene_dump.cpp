@@ -92,8 +92,8 @@ std::string dump(const Overlays& o) {
   std::string text = fmt::format("\nunits {} {} {}", o.units.pixels, dump(o.units.origin), o.units.yUp);
   const auto layer = [](OverlayLayer which) { return static_cast<int>(which); };
   for (const GridOverlay& g : o.grids)
-    text += fmt::format("\ngrid {} {} {} {} {} {}", g.step, g.width, dump(g.color), g.axes, dump(g.axisColor),
-                        layer(g.layer));
+    text += fmt::format("\ngrid {} {} {} {} {} {} {} {}", g.step, g.width, dump(g.color), g.axes,
+                        dump(g.axisColor), g.labels, g.labelSize, layer(g.layer));
   for (const TrailOverlay& t : o.trails)
     text += fmt::format("\ntrail {} {} {} {} {} {} {}", dump(t.of), t.length, t.width, dump(t.color),
                         t.opacity, t.fade, layer(t.layer));
@@ -113,8 +113,27 @@ std::string dump(const Overlays& o) {
     text += fmt::format("\ncontact mark {} {} {} {} {} {} {}", dump(m.of), m.duration, m.length, m.width,
                         dump(m.normal), dump(m.tangent), layer(m.layer));
   for (const RulerOverlay& r : o.rulers)
-    text += fmt::format("\nruler {} {} {} {} {} {}", dump(r.from), dump(r.to), r.step, r.width, dump(r.color),
-                        layer(r.layer));
+    text += fmt::format("\nruler {} {} {} {} {} {} {} {}", dump(r.from), dump(r.to), r.step, r.width,
+                        dump(r.color), layer(r.layer));
+  return text;
+}
+
+std::string dump(const Probe& p) {
+  return fmt::format("{}/{}/{}/{}/{}/{}", static_cast<int>(p.quantity), p.body.value_or(77),
+                     p.group.value_or(77), p.other, p.zero, p.unit);
+}
+
+std::string dump(const PlotAxis& axis) {
+  return fmt::format("{} {} {}", axis.label,
+                     axis.range ? fmt::format("{}", fmt::join(*axis.range, "..")) : "auto", axis.log);
+}
+
+std::string dump(const Plot& p) {
+  std::string text = fmt::format("\nplot {} | {} | {} {} {} {} {} {} {} {} {} {}", dump(p.x), dump(p.y),
+                                 fmt::join(p.area, ","), p.title, p.textSize, p.width, p.whole, p.cursor,
+                                 p.grid, p.legend, p.overTime, dump(p.background));
+  for (const PlotCurve& curve : p.curves)
+    text += fmt::format(" | {} {} {} {}", dump(curve.x), dump(curve.y), curve.name, dump(curve.color));
   return text;
 }
 
@@ -142,6 +161,26 @@ std::string dump(const Force& force) {
                      force.body ? fmt::format("{}", *force.body) : "all");
 }
 
+std::string dump(const std::optional<Color>& color) {
+  return color ? dump(Paint(*color)) : "none";
+}
+
+std::string dump(const TextItem& item) {
+  const TextLook& look = item.look;
+  std::string text =
+      fmt::format("at {} place {} offset {} from {} to {} fade {} size {} font {} {} color {} opacity {} "
+                  "anchor {} align {} "
+                  "line {} background {} {} outline {} {} upwards {}:",
+                  dump(item.at), item.place ? static_cast<int>(*item.place) : -1, dump(item.offset),
+                  item.from, item.to, item.fade, look.size, static_cast<int>(look.font.typeface),
+                  look.font.file.string(), dump(Paint(look.color)), look.opacity,
+                  static_cast<int>(look.anchor), static_cast<int>(look.align), look.lineHeight,
+                  dump(look.background), look.padding, dump(look.outline), look.outlineWidth, look.upwards);
+  for (const TextTemplate::Piece& piece : item.text.pieces)
+    text += fmt::format(" {} {}", piece.text, piece.probe ? static_cast<int>(piece.probe->quantity) : -1);
+  return text;
+}
+
 } // namespace
 
 std::string dump(const Scene& scene) {
@@ -157,6 +196,7 @@ std::string dump(const Scene& scene) {
   for (const Body& body : world.bodies) text += "\nbody " + scene.bodyNames.at(body.id) + ' ' + dump(body);
   for (const Spawner& spawner : world.spawners) text += "\nspawn " + dump(spawner);
   for (const Launch& launch : world.launches) text += "\nlaunch " + dump(launch);
+  for (const TextItem& item : scene.texts) text += "\ntext " + dump(item);
   for (const ContactRule& rule : world.contacts) {
     text +=
         fmt::format("\ncollide {} {} {} {} {} {}", rule.groupA, rule.groupB, static_cast<int>(rule.response),
@@ -164,6 +204,7 @@ std::string dump(const Scene& scene) {
   }
   for (const Force& force : world.forces) text += "\nforce " + dump(force);
   text += dump(scene.overlays);
+  for (const Plot& plot : scene.plots) text += dump(plot);
   if (!scene.panels.panels.empty()) {
     text += fmt::format("\npanels {} {} {} {}", static_cast<int>(scene.panels.layout), scene.panels.columns,
                         scene.panels.gap, scene.panels.caption);
