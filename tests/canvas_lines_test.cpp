@@ -29,12 +29,18 @@ double sampled(int x, int y, const Inside& inside) {
     const double down = j * kGolden - std::floor(j * kGolden);
     return inside(Vec2(x + (i + down) / kSamples, y + (j + right) / kSamples));
   };
+  // What is in the pixel crosses its border, or fills it.
+  int border = 0;
+  constexpr int kBorder = 40;
+  for (int k = 0; k < kBorder; ++k) {
+    const double t = static_cast<double>(k) / kBorder;
+    for (const Vec2& p :
+         {Vec2(x + t, y), Vec2(x + 1.0, y + t), Vec2(x + 1.0 - t, y + 1.0), Vec2(x, y + 1.0 - t)})
+      border += inside(p) ? 1 : 0;
+  }
+  if (border == 0) return 0.0;
+  if (border == 4 * kBorder) return 1.0;
   int sum = 0;
-  for (int j = 0; j < kSamples; j += 8)
-    for (int i = 0; i < kSamples; i += 8) sum += at(i, j) ? 1 : 0;
-  if (sum == 0) return 0.0; // no edge passes that is wider than an eighth of a pixel
-  if (sum == 64) return 1.0;
-  sum = 0;
   for (int j = 0; j < kSamples; ++j)
     for (int i = 0; i < kSamples; ++i) sum += at(i, j) ? 1 : 0;
   return static_cast<double>(sum) / (kSamples * kSamples);

@@ -1,6 +1,7 @@
 #include "render/draw/overlay_history.h"
 #include "render/job/render_options.h"
 #include "render/job/scene_source.h"
+#include "render/stage/game_object.h"
 #include "render/stage/stage_source.h"
 #include "tests/support/process.h"
 #include "tests/support/scene_text.h"
@@ -140,8 +141,8 @@ TEST(Overlay, HistoryKeepsPlacesGhostsAndContacts) {
   const OverlayHistory::Track& track = history.tracks().at(0);
   EXPECT_EQ(track.head.at, Vec2(300.0, 50.0));
   EXPECT_EQ(track.head.time, 3.0);
-  ASSERT_EQ(track.places.size(), 21U); // a second at 20 frames a second, both ends
-  EXPECT_DOUBLE_EQ(track.places.front().time, 2.0);
+  ASSERT_EQ(track.places.size(), 22U); // a second at 20 frames a second, both ends, and the one before
+  EXPECT_DOUBLE_EQ(track.places.front().time, 1.95);
   EXPECT_EQ(history.tracks().at(1).places.size(), 1U);
   ASSERT_EQ(history.ghosts(0).size(), 6U); // 2.5, 2.75 and 3 s, two bodies
   EXPECT_EQ(history.ghosts(0).front().time, 2.5);

@@ -237,6 +237,7 @@ std::string valueOf(const DocumentedKey& key) {
   if (key.key == "layout") return "\"overlaid\"";
   if (key.key == "x_scale" || key.key == "y_scale") return "\"log\"";
   if (key.table == "plot" && key.key == "area") return "[10, 20, 300, 200]";
+  if (key.key == "text_size") return "20.5";
   if (key.table == "plot" && key.key == "legend") return "true";
   if (key.table == "plot" && key.key == "x") return "[\"b.x\"]";
   if (key.table == "panels" && key.key == "size") return "[900, 700]";

@@ -49,9 +49,18 @@ double Axis::place(double value) const {
 std::vector<Axis::Tick> Axis::ticks(int most) const {
   std::vector<Tick> ticks;
   if (!log_) {
-    const double step = roundStep((high_ - low_) / most);
-    const double first = std::ceil(low_ / step - 1e-9);
-    const double count = std::floor(high_ / step + 1e-9) - first;
+    double step = roundStep((high_ - low_) / most);
+    double first = 0.0;
+    double count = 0.0; // of steps from the first tick to the last
+    const auto place = [&] {
+      first = std::ceil(low_ / step - 1e-9);
+      count = std::floor(high_ / step + 1e-9) - first;
+    };
+    place();
+    if (count < 1.0) { // a single tick tells no scale
+      step = roundStep(0.3 * step);
+      place();
+    }
     // Counted from 0, for where doubles have no fraction left adding 1 may change nothing.
     for (int i = 0; i <= count && i <= most; ++i)
       ticks.push_back({(first + i) * step, tickLabel((first + i) * step, step)});

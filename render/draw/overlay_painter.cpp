@@ -22,7 +22,7 @@ constexpr double kMostTicks = 2000.0;
 /// A share of 0 … 1 in steps that are not seen. A trail's pieces so change their colour only every few
 /// frames, each at its own time, and most of it need not be drawn again.
 double fadeStep(double share) {
-  constexpr double kSteps = 48.0;
+  constexpr double kSteps = 32.0;
   return (std::floor(std::clamp(share, 0.0, 1.0) * kSteps) + 0.5) / kSteps;
 }
 
@@ -77,6 +77,21 @@ std::optional<Vec2> placeOf(const Anchor& anchor, std::span<const Body> bodies) 
   const auto body = std::ranges::find(bodies, *anchor.body, &Body::id);
   if (body == bodies.end()) return std::nullopt;
   return middleOf(*body);
+}
+
+constexpr double kPieces = 40.0;       ///< of a trail, about; each of one colour
+constexpr double kLongestPiece = 0.05; ///< s: so long a flight is nearly straight
+
+/// Whether a trail needs this place: the first of every `piece` seconds, and where it turns by more than 2°
+/// in a frame. It depends on the place's neighbours only, so a trail that grows and gets old keeps its
+/// pieces.
+bool isCorner(const std::deque<OverlayHistory::Place>& places, std::size_t i, double piece) {
+  constexpr double kCosine = 0.99939;
+  if (i == 0 || i + 1 >= places.size()) return true;
+  if (std::floor(places[i].time / piece) != std::floor(places[i - 1].time / piece)) return true;
+  const Vec2 one = places[i].at - places[i - 1].at;
+  const Vec2 two = places[i + 1].at - places[i].at;
+  return one.dot(two) < kCosine * length(one) * length(two);
 }
 
 Vec2 toPane(const Viewport& viewport, const Vec2& p) {
@@ -179,6 +194,7 @@ void OverlayPainter::trail(Picture& picture, const TrailOverlay& trail, const No
     const Rgba8 color = trail.color ? bytes(*trail.color, trail.opacity)
                                     : faded(now.painter.colorOf(track.look), trail.opacity);
     const double begin = now.time - trail.length;
+    const double piece = std::min(trail.length / kPieces, kLongestPiece);
     points.clear();
     colors.clear();
     double last = 0.0; // the time of the last point
@@ -193,7 +209,7 @@ void OverlayPainter::trail(Picture& picture, const TrailOverlay& trail, const No
     const auto& places = track.places;
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (places[i].time >= begin) {
-        add(places[i]);
+        if (isCorner(places, i, piece)) add(places[i]);
         continue;
       }
       const OverlayHistory::Place& next = i + 1 < places.size() ? places[i + 1] : track.head;

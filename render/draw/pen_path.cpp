@@ -15,7 +15,8 @@ constexpr double kSmoothCosine = 0.9945;
 /// corners sharper than this many half widths the arms' far parts show twice.
 constexpr double kLongestOverlap = 8.0;
 
-constexpr double kStraight = 0.35;    ///< px
+constexpr double kStraight = 0.6;     ///< px; beside a sharp corner such a bend is not seen
+constexpr double kBluntCosine = 0.76; ///< of 40°
 constexpr double kFarthest = 32768.0; ///< px
 
 struct Segment {
@@ -92,7 +93,7 @@ void lengthenArms(std::vector<Point>& run, double halfWidth) {
   for (std::size_t i = 1; i + 1 < run.size(); ++i) cosines[i] = cosineAt(run, i);
   std::vector<bool> dropped(run.size(), false);
   for (std::size_t corner = 1; corner + 1 < run.size(); ++corner) {
-    if (cosines[corner] >= kSmoothCosine) continue;
+    if (cosines[corner] >= kSmoothCosine || dropped[corner]) continue;
     const double wanted = 1.2 * overlapOf(cosines[corner], halfWidth);
     const Vec2 at = run[corner].at;
     for (const int side : {-1, 1}) {
@@ -100,7 +101,8 @@ void lengthenArms(std::vector<Point>& run, double halfWidth) {
         return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + side);
       };
       std::size_t i = along(corner);
-      while (i > 0 && i + 1 < run.size() && cosines[i] >= kSmoothCosine && length(run[i].at - at) < wanted) {
+      while (i > 0 && i + 1 < run.size() && cosines[i] >= kBluntCosine && cosines[i] > cosines[corner] &&
+             length(run[i].at - at) < wanted) {
         const Vec2 arm = run[along(i)].at - at;
         const Vec2 aside = Vec2(-arm.y(), arm.x()) / length(arm);
         bool straight = true;

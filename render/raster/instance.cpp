@@ -112,8 +112,7 @@ std::optional<Drawable> makeDrawable(const Primitive& primitive, const PixelRect
   } else {
     setBox(primitive, bounds, drawable);
   }
-  // Beyond its bounds a mask has no texels, so they are not made square.
-  finish(primitive, bounds, clip, primitive.kind == Kind::Mask ? 0 : largestPoint, drawable);
+  finish(primitive, bounds, clip, largestPoint, drawable);
   return drawable;
 }
 

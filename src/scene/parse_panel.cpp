@@ -113,7 +113,7 @@ void parsePanels(const TomlValue& root, const SceneOverrides& overrides,
   ErrorList errors(scene.file.string());
   if (list == nullptr) {
     if (const TomlEntry* layout = findEntry(root, "panels"))
-      errors.add(layout->line, layout->column, "[panels] lays out [[panel]] tables, but there are none");
+      errors.add(layout->line, layout->column, "'panels' lays out [[panel]] tables, but there are none");
     errors.throwIfAny();
     return;
   }
@@ -144,7 +144,12 @@ void parsePanels(const TomlValue& root, const SceneOverrides& overrides,
     } catch (const SceneError& problems) {
       for (const Diagnostic& problem : problems.diagnostics()) {
         const std::tuple key(problem.where.line, problem.where.column, problem.message);
-        if (told.insert(key).second) errors.add(SceneError({problem}));
+        if (!told.insert(key).second) continue;
+        if (problem.where.file == scene.file.string()) {
+          errors.add(problem.where.line, problem.where.column, problem.message);
+        } else {
+          errors.add(SceneError({problem}));
+        }
       }
     }
   }

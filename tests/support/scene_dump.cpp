@@ -114,7 +114,7 @@ std::string dump(const Overlays& o) {
                         dump(m.normal), dump(m.tangent), layer(m.layer));
   for (const RulerOverlay& r : o.rulers)
     text += fmt::format("\nruler {} {} {} {} {} {} {} {}", dump(r.from), dump(r.to), r.step, r.width,
-                        dump(r.color), layer(r.layer));
+                        dump(r.color), r.unit, r.labelSize, layer(r.layer));
   return text;
 }
 
@@ -159,10 +159,6 @@ std::string dump(const Force& force) {
   return fmt::format("{} group {} body {}", std::visit(Dump{}, force.kind),
                      force.group ? fmt::format("{}", *force.group) : "all",
                      force.body ? fmt::format("{}", *force.body) : "all");
-}
-
-std::string dump(const std::optional<Color>& color) {
-  return color ? dump(Paint(*color)) : "none";
 }
 
 std::string dump(const TextItem& item) {
