@@ -238,6 +238,7 @@ std::string valueOf(const DocumentedKey& key) {
   if (key.key == "x_scale" || key.key == "y_scale") return "\"log\"";
   if (key.table == "plot" && key.key == "area") return "[10, 20, 300, 200]";
   if (key.key == "text_size") return "20.5";
+  if (key.key == "columns") return "1";
   if (key.table == "plot" && key.key == "legend") return "true";
   if (key.table == "plot" && key.key == "x") return "[\"b.x\"]";
   if (key.table == "panels" && key.key == "size") return "[900, 700]";

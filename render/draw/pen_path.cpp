@@ -85,6 +85,20 @@ double cosineAt(const std::vector<Point>& run, std::size_t i) {
   return one.dot(two) / (length(one) * length(two));
 }
 
+/// Of two corners nearer to each other than half the line's width only the sharper stays: the line hides the
+/// difference, and their arms could not be told apart.
+void mergeCorners(std::vector<Point>& run, double halfWidth) {
+  for (std::size_t i = 1; i + 2 < run.size();) {
+    const double one = cosineAt(run, i);
+    const double two = cosineAt(run, i + 1);
+    if (one >= kSmoothCosine || two >= kSmoothCosine || length(run[i + 1].at - run[i].at) >= halfWidth) {
+      ++i;
+    } else {
+      run.erase(run.begin() + static_cast<std::ptrdiff_t>(one > two ? i : i + 1));
+    }
+  }
+}
+
 /// Takes points out of the arms of sharp corners, where these are too short to hold the part that both arms
 /// cover, as long as the path is straight there within kStraight.
 void lengthenArms(std::vector<Point>& run, double halfWidth) {
@@ -139,6 +153,7 @@ void Pen::path(std::span<const Vec2> points, std::span<const Rgba8> colors) {
   std::vector<Point> run;
   for (std::size_t next = 0; next < points.size();) {
     next = takeRun(points, colors, color_, next, run);
+    mergeCorners(run, half);
     lengthenArms(run, half);
     const std::vector<Segment> segments = segmentsOf(run);
     if (segments.empty()) continue;

@@ -36,7 +36,9 @@ std::int64_t touchedPixels(const DisplayList& list, std::int32_t index) {
   const std::int64_t width = bounds.right - bounds.left;
   const std::int64_t height = bounds.bottom - bounds.top;
   const Primitive& primitive = list.primitives[static_cast<std::size_t>(index)];
-  const bool narrow = isPlain(primitive) || primitive.kind >= Primitive::Kind::Quad; // lines
+  using Kind = Primitive::Kind;
+  const bool narrow = isPlain(primitive) || primitive.kind >= Kind::Quad || primitive.kind == Kind::Ring ||
+                      primitive.kind == Kind::BoxRing; // lines
   return narrow ? std::min(width * height, 2 * (width + height) * kEdge) : width * height;
 }
 
