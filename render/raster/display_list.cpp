@@ -59,7 +59,8 @@ Shift findShift(const DisplayList& before, std::size_t i, std::size_t oldEnd, co
   constexpr std::size_t kAhead = 8;
   const Primitive& x = before.primitives[i];
   const Primitive& y = now.primitives[j];
-  // A body that has moved. Of lines any may be another one: a trail loses its oldest piece and gets a new one.
+  // A body that has moved. Of lines any may be another one: a trail loses its oldest piece and gets a new
+  // one.
   if (x.kind == y.kind && x.color == y.color && x.kind < Primitive::Kind::Quad) return {};
   for (std::size_t d = 1; d <= kAhead; ++d) {
     if (j + d < end && samePrimitive(before, i, now, j + d)) return {0, d};
