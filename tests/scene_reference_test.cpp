@@ -113,6 +113,12 @@ Entries baseOf(const std::string& table) {
       {"replay", {{"trace", "\"student.csv\""}}},
       {"replay.look", {{"id", "2"}}},
       {"golden", {{"at", "[0.5]"}}},
+      {"section", {{"title", "\"b\""}, {"start", "1"}}},
+      {"caption", {{"text", "\"a\""}, {"from", "0.25"}, {"to", "0.75"}}},
+      {"pause", {{"at", "0.5"}, {"for", "1"}}},
+      {"speed", {{"factor", "2"}}},
+      {"camera", {{"at", "1"}}},
+      {"narration", {{"file", "\"image.png\""}}},
   };
   const auto found = bases.find(table);
   return found == bases.end() ? Entries{} : found->second;
@@ -148,6 +154,12 @@ Entries with(const std::string& table, const std::string& key, const std::string
   if (table == "replay.look" && key == "group") drop({"id"});
   if (table == "golden" && key == "every") drop({"at"});
   if (table == "random") drop({"uniform"});
+  if (table == "caption" && (key == "on" || key == "body" || key == "limit")) {
+    drop({"from", "to"});
+    set(entries, "on", "\"bounce\"");
+  }
+  if (table == "caption" && key == "for") drop({"to"});
+  if (table == "pause" && (key == "style" || key == "color")) set(entries, "highlight", "[\"b\"]");
   if (table == "stroke" && (key == "anchor" || key == "proportional")) set(entries, "image", "\"image.png\"");
   if ((table == "fill" || table == "stroke") && key == "proportional") set(entries, "anchor", "[0, 0, 1, 1]");
   if (!key.empty()) set(entries, key, value);
@@ -171,7 +183,10 @@ std::string sceneWith(const std::string& table, const Entries& entries) {
   if (table == "stroke") return spawn + "stroke = { " + inlined + " }\n";
   if (table == "random") return spawn + "vx = { " + inlined + " }\n";
   if (table.starts_with("force")) return body + "[[force]]\n" + lines;
-  const bool many = table == "body" || table == "spawn" || table == "launch" || table == "collide";
+  const std::string section = "[[section]]\ntitle = \"b\"\nstart = 0\n";
+  if (table == "caption" || table == "camera") return body + section + "[[" + table + "]]\n" + lines;
+  const bool many = table == "body" || table == "spawn" || table == "launch" || table == "collide" ||
+                    table == "section" || table == "pause" || table == "speed";
   return body + (many ? "[[" + table + "]]\n" : "[" + table + "]\n") + lines;
 }
 
@@ -192,6 +207,7 @@ std::string valueOf(const DocumentedKey& key) {
       {"[mean, deviation]", "[1, 2]"},
       {"number or list", "[0.5, 1]"},
       {"list of numbers", "[0.5, 1]"},
+      {"list of names", "[\"b\"]"},
       {"list of [x, y, width, height]", "[[1, 2, 3, 4]]"},
       {"file or list", "\"image.png\""},
       {"integer or list", "[5, 6]"},
@@ -203,7 +219,8 @@ std::string valueOf(const DocumentedKey& key) {
   // Words and truths other than the default, so that they have an effect.
   static const std::map<std::string, std::string> words = {
       {"integrator", "rk4"},  {"shape", "circle"}, {"align", "inside"},      {"count", "alive"},
-      {"response", "report"}, {"type", "drag"},    {"when", "after-update"},
+      {"response", "report"}, {"type", "drag"},    {"when", "after-update"}, {"style", "dim"},
+      {"easing", "in"},       {"on", "collide"},
   };
   if (key.type == "boolean") return key.defaultText == "true" ? "false" : "true";
   if (key.key == "leaving") return key.defaultText == "\"keep\"" ? "\"remove\"" : "\"keep\"";
@@ -212,6 +229,7 @@ std::string valueOf(const DocumentedKey& key) {
   if (key.key == "recorded") return "\"log.dt\"";
   if (key.key == "trace") return "\"student.csv\"";
   if (key.key == "replay") return "{ trace = \"student.csv\" }";
+  if (key.key == "narration" && key.table.empty()) return "{ file = \"image.png\" }";
   if (key.key == "golden") return "{ at = [1] }";
   if (key.key == "look") return "[{ id = 2, fill = \"red\" }]";
   if (key.table == "force" && key.key == "group") return "\"bodies\"";

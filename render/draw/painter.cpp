@@ -130,6 +130,23 @@ void Painter::body(Picture& picture, const Body& body, std::uint32_t look) const
   }
 }
 
+void Painter::veil(Picture& picture, Rgba8 color) const {
+  if (color.a > 0) picture.primitives.push_back(layer(color));
+}
+
+void Painter::ground(Picture& picture, Rgba8 color) const {
+  if (color.a > 0) picture.primitives.insert(picture.primitives.begin(), layer(color));
+}
+
+Primitive Painter::layer(Rgba8 color) const {
+  Primitive primitive;
+  primitive.kind = Primitive::Kind::Box;
+  primitive.color = color;
+  primitive.low = Vec2(viewport_.clip.left, viewport_.clip.top);
+  primitive.high = Vec2(viewport_.clip.right, viewport_.clip.bottom);
+  return primitive;
+}
+
 /// Appends the primitive with its paint, unless nothing of it can be seen.
 void Painter::add(Picture& picture, Primitive& primitive, const PreparedPaint& paint, const Bounds& bounds,
                   bool isStroke) const {

@@ -27,7 +27,14 @@ public:
   void rectangle(Picture& picture, const Vec2& position, const Vec2& size, std::uint32_t look) const;
   void body(Picture& picture, const Body& body, std::uint32_t look) const;
 
+  /// A layer of one colour over all that is painted so far, within the viewport's clip.
+  void veil(Picture& picture, Rgba8 color) const;
+  /// The same under all that is painted so far.
+  void ground(Picture& picture, Rgba8 color) const;
+
   [[nodiscard]] const Viewport& viewport() const { return viewport_; }
+  /// Where shapes are painted from now on; the picture's size and clip must stay the same.
+  void setViewport(const Viewport& viewport) { viewport_ = viewport; }
 
 private:
   struct PreparedPaint {
@@ -48,6 +55,7 @@ private:
     Vec2 high;
   };
 
+  [[nodiscard]] Primitive layer(Rgba8 color) const; ///< all of the clip
   PreparedLook prepare(const Look& look);
   PreparedPaint prepare(const Paint& paint, double opacity);
   void add(Picture& picture, Primitive& primitive, const PreparedPaint& paint, const Bounds& bounds,

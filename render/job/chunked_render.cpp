@@ -5,6 +5,7 @@
 #include "render/job/fingerprint.h"
 #include "render/job/notice.h"
 #include "render/job/processors.h"
+#include "render/job/sidecar.h"
 #include "render/job/workers.h"
 #include "render/output/atomic_file.h"
 #include "render/output/codecs.h"
@@ -51,6 +52,8 @@ public:
                               plan_.chunks() == 1 ? "" : "s"));
     }
     if (!options.hashFile.empty()) requireWritable(options.hashFile);
+    if (source.hasCaptions() && !options.segment && Sidecar::nameFor(options.out))
+      sidecar_.emplace(options.out);
     said_ = output_->notice();
     printNotice(said_);
   }
@@ -181,7 +184,10 @@ private:
   std::int64_t joinChunks(const Parts& parts) {
     std::vector<fs::path> chunks;
     for (std::int64_t chunk = 0; chunk < plan_.chunks(); ++chunk) chunks.push_back(parts.chunk(chunk));
+    const VideoTracks tracks = source_.tracks(schedule_.origin(), schedule_.origin() + schedule_.seconds());
+    output_->setTracks(tracks);
     const std::int64_t bytes = output_->join(chunks, plan_.frames());
+    if (sidecar_) sidecar_->write(tracks);
     printNotice(output_->notice().substr(said_.size())); // what only the whole told
     return bytes;
   }
@@ -213,7 +219,8 @@ private:
   std::int64_t endChunk_;
   std::unique_ptr<ChunkedOutput> output_;
   SharedState state_;
-  std::string said_; ///< of the output's notice
+  std::optional<Sidecar> sidecar_; ///< where there are captions
+  std::string said_;               ///< of the output's notice
 };
 
 } // namespace

@@ -33,6 +33,7 @@ struct RenderOptions {
   std::optional<double> scale;    ///< output pixels per scene pixel
   std::optional<Quality> quality; ///< nothing: the format's default
   std::filesystem::path hashFile; ///< a line a frame: `frame state-hash pixel-hash`; empty: none
+  std::filesystem::path poster;   ///< a picture of one moment, .png or .jpg; empty: none
   /// Worker processes at a time; 0: everything in this process, without fork. Nothing: as many as there are
   /// processors. The output's bytes do not depend on it. Raw outputs are written by this process alone.
   std::optional<int> jobs;

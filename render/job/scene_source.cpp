@@ -1,9 +1,19 @@
 #include "render/job/scene_source.h"
 
 #include "render/job/fingerprint.h"
+#include "render/job/scene_tracks.h"
+
+#include <algorithm>
 
 namespace offstage {
 namespace {
+
+/// Of what is not pointed at, under a dimming pause.
+constexpr double kDimmed = 0.55;
+/// s: how long pointing at something takes to come and to go.
+constexpr double kHighlightFade = 0.2;
+/// A ring's width, and its distance from what it is around, as a share of the pane's height.
+constexpr double kRingWidth = 1.0 / 120.0;
 
 std::variant<World, ReplayMotion> motionOf(const Scene& scene) {
   if (scene.replay) return ReplayMotion(scene.replay);
@@ -14,7 +24,7 @@ void addPaint(Fingerprint& fingerprint, const Paint& paint) {
   if (const auto* pattern = std::get_if<ImagePattern>(&paint)) fingerprint.addFile(pattern->file);
 }
 
-std::uint64_t fingerprintOf(const Scene& scene) {
+std::uint64_t fingerprintOf(const Scene& scene, const Film& film) {
   Fingerprint fingerprint;
   fingerprint.add(scene.text);
   fingerprint.add(scene.clock);
@@ -23,7 +33,30 @@ std::uint64_t fingerprintOf(const Scene& scene) {
     if (look.stroke) addPaint(fingerprint, look.stroke->paint);
   }
   if (scene.replay) fingerprint.addFile(scene.replay->trace.file);
+  for (const Film::Voice& voice : film.voices) fingerprint.addFile(voice.sound.file);
   return fingerprint.value();
+}
+
+Vec2 centerOf(const Body& body) {
+  return body.shape == Shape::Circle ? body.position : Vec2(body.position + body.size * 0.5);
+}
+
+Rgba8 veilOf(const Color& color, double opacity) {
+  return {color.red, color.green, color.blue, color.alphaByte(opacity)};
+}
+
+/// A veil over an opaque colour.
+Rgba8 mixed(const Rgba8& under, const Rgba8& veil) {
+  const auto channel = [&veil](int low, int high) {
+    return static_cast<std::uint8_t>((low * (255 - veil.a) + high * veil.a + 127) / 255);
+  };
+  return {channel(under.r, veil.r), channel(under.g, veil.g), channel(under.b, veil.b), 255};
+}
+
+/// How much of something that lasts from … to is there at `time`, when it comes and goes within `fade`; 0
+/// … 1.
+double presence(double time, double from, double to, double fade) {
+  return std::clamp(std::min(time - from, to - time) / fade, 0.0, 1.0);
 }
 
 } // namespace
@@ -32,10 +65,25 @@ SceneSource::SceneSource(const Scene& scene, Viewport viewport)
     : clock_(scene.clock),
       title_(scene.title),
       motion_(motionOf(scene)),
+      home_(viewport),
       painter_(viewport, scene.background),
-      fingerprint_(fingerprintOf(scene)) {
+      timeline_(scene.timeline),
+      film_(makeFilm(timeline_, clock_, narrationLengths(timeline_), title_)),
+      camera_(film_.camera, Vec2(scene.size[0], scene.size[1])),
+      ringWidth_(kRingWidth * scene.size[1]),
+      fingerprint_(fingerprintOf(scene, film_)) {
   // The painter numbers looks as the scene does, so Body::look needs no translation.
   for (const Look& look : scene.looks) painter_.addLook(look);
+  ringLook_ = static_cast<std::uint32_t>(scene.looks.size());
+  for (const Pause& pause : timeline_.pauses) {
+    Look ring;
+    ring.fill.reset();
+    ring.stroke = Stroke{pause.color, ringWidth_, StrokeAlign::Outside};
+    painter_.addLook(ring);
+  }
+  if (needsEvents(timeline_) && std::holds_alternative<World>(motion_)) start_ = std::get<World>(motion_);
+  for (const std::uint32_t body : camera_.followed()) followed_.emplace(body, Vec2(Vec2::Zero()));
+  noteFollowed();
 }
 
 std::int64_t SceneSource::frame() const {
@@ -44,11 +92,115 @@ std::int64_t SceneSource::frame() const {
 
 void SceneSource::step() {
   std::visit([tick = clock_.tick(frame() + 1)](auto& motion) { motion.step(tick); }, motion_);
+  noteFollowed();
+}
+
+void SceneSource::noteFollowed() {
+  if (followed_.empty()) return;
+  for (const Body& body : bodies())
+    if (const auto place = followed_.find(body.id); place != followed_.end()) place->second = centerOf(body);
+}
+
+void SceneSource::show(const Shot& shot) {
+  const auto& [wanted, fraction] = shot.moment;
+  while (frame() < wanted) step();
+  if (fraction > 0.0 && earlier_.frame != wanted) {
+    earlier_ = {wanted, {bodies().begin(), bodies().end()}, stateHash()};
+    step();
+  }
+  shot_ = shot;
+  if (fraction > 0.0) blend(fraction);
+  if (!camera_.moves()) return;
+  painter_.setViewport(camera_.at(shot.time, home_, [this](std::uint32_t id) {
+    const auto shown = std::ranges::find(shownBodies(), id, &Body::id);
+    return shown == shownBodies().end() ? followed_.at(id) : centerOf(*shown);
+  }));
+}
+
+void SceneSource::blend(double fraction) {
+  blended_ = earlier_.bodies;
+  const std::span<const Body> later = bodies();
+  auto next = later.begin();
+  for (Body& body : blended_) { // both are in order of creation
+    while (next != later.end() && next->id < body.id) ++next;
+    if (next != later.end() && next->id == body.id)
+      body.position += (next->position - body.position) * fraction;
+  }
+}
+
+std::span<const Body> SceneSource::shownBodies() const {
+  if (shot_.moment.fraction > 0.0) return blended_;
+  return bodies();
+}
+
+std::uint64_t SceneSource::shownStateHash() const {
+  return shot_.moment.fraction > 0.0 ? earlier_.stateHash : stateHash();
+}
+
+bool SceneSource::followsVideoTime() const {
+  return camera_.moves() || timeline_.fadeIn > 0.0 || timeline_.fadeOut > 0.0 || !film_.freezes.empty() ||
+         !film_.cards.empty();
+}
+
+bool SceneSource::hasCaptions() const {
+  return !timeline_.captions.empty() || !timeline_.eventCaptions.empty();
+}
+
+VideoTracks SceneSource::tracks(double from, double to) const {
+  return sceneTracks(timeline_, film_, start_ ? &*start_ : nullptr, from, to);
 }
 
 void SceneSource::draw(Picture& picture) const {
   painter_.begin(picture);
-  for (const Body& body : bodies()) painter_.body(picture, body, body.look);
+  drawBodies(picture);
+  drawFade(picture);
+}
+
+void SceneSource::drawBodies(Picture& picture) const {
+  const double now = shot_.time;
+  const auto freeze = std::ranges::find_if(film_.freezes, [now](const Film::Freeze& candidate) {
+    return candidate.from <= now && now < candidate.to;
+  });
+  if (freeze == film_.freezes.end()) {
+    for (const Body& body : shownBodies()) painter_.body(picture, body, body.look);
+    return;
+  }
+  const Pause& pause = timeline_.pauses[freeze->pause];
+  const auto isMeant = [&pause](const Body& body) { return std::ranges::count(pause.bodies, body.id) > 0; };
+  const bool dim = pause.highlight == Highlight::Dim;
+  for (const Body& body : shownBodies())
+    if (!dim || !isMeant(body)) painter_.body(picture, body, body.look);
+  if (dim)
+    painter_.veil(picture,
+                  veilOf(Color{}, kDimmed * presence(now, freeze->from, freeze->to, kHighlightFade)));
+  for (const Body& body : shownBodies()) {
+    if (!isMeant(body)) continue;
+    if (dim) {
+      painter_.body(picture, body, body.look);
+    } else {
+      const double radius = body.shape == Shape::Circle ? body.radius : body.size.norm() * 0.5;
+      painter_.circle(picture, centerOf(body), radius + ringWidth_,
+                      ringLook_ + static_cast<std::uint32_t>(freeze->pause));
+    }
+  }
+}
+
+/// The fades are over the pane; where the pane does not fill the picture, the background around it fades with
+/// it.
+void SceneSource::drawFade(Picture& picture) const {
+  double opacity = 0.0;
+  if (shot_.time < timeline_.fadeIn) opacity = 1.0 - shot_.time / timeline_.fadeIn;
+  const double left = film_.seconds - shot_.time;
+  if (left < timeline_.fadeOut) opacity = std::max(opacity, 1.0 - left / timeline_.fadeOut);
+  const Rgba8 veil = veilOf(timeline_.fadeColor, opacity);
+  if (veil.a == 0) return;
+  painter_.veil(picture, veil);
+  const PixelRect whole{0, 0, home_.width, home_.height};
+  if (home_.clip == whole || picture.background.a != 255) return;
+  // The pane keeps its background under the veil; around it, where nothing is painted, the picture's takes
+  // the fade.
+  painter_.ground(picture, picture.background);
+  picture.background = mixed(picture.background, veil);
 }
 
 std::uint64_t SceneSource::stateHash() const {

@@ -1,19 +1,24 @@
 #pragma once
 
+#include "render/draw/camera.h"
 #include "render/draw/painter.h"
 #include "render/job/source.h"
 #include "src/scene/scene.h"
 #include "src/sim/world.h"
 
+#include <map>
+#include <optional>
 #include <span>
 #include <variant>
+#include <vector>
 
 namespace offstage {
 
 /// A scene file's world, or the trace that it replays, as something to render.
 class SceneSource : public Source {
 public:
-  /// Decodes the scene's images. Throws SceneError or Error for what parsing could not know.
+  /// Decodes the scene's images and measures its sound files. Throws SceneError or Error for what parsing
+  /// could not know.
   SceneSource(const Scene& scene, Viewport viewport);
 
   [[nodiscard]] const Clock& clock() const override { return clock_; }
@@ -24,17 +29,53 @@ public:
   [[nodiscard]] std::uint64_t stateHash() const override;
   [[nodiscard]] std::uint64_t fingerprint() const override { return fingerprint_; }
 
-  [[nodiscard]] double time() const; ///< s: of the present frame
+  [[nodiscard]] const Film* film() const override { return &film_; }
+  /// A moment between two frames shows the bodies that live in the earlier one: those that live in both are
+  /// placed on the straight line between their two positions.
+  void show(const Shot& shot) override;
+  [[nodiscard]] std::uint64_t shownStateHash() const override;
+  [[nodiscard]] bool followsVideoTime() const override;
+  [[nodiscard]] bool hasCaptions() const override;
+  [[nodiscard]] VideoTracks tracks(double from, double to) const override;
+
+  [[nodiscard]] double time() const; ///< s of simulated time: of the present frame
   /// The bodies of the present frame in the order in which they are drawn. Valid until the next step.
   [[nodiscard]] std::span<const Body> bodies() const;
+  /// Those that draw() draws, in the same order. Valid until the next step.
+  [[nodiscard]] std::span<const Body> shownBodies() const;
   [[nodiscard]] const Painter& painter() const { return painter_; }
 
 private:
+  /// The last frame before the present one, when a moment between the two is shown.
+  struct Earlier {
+    std::int64_t frame = -1;
+    std::vector<Body> bodies;
+    std::uint64_t stateHash = 0;
+  };
+  void blend(double fraction);
+  void noteFollowed();
+  void drawBodies(Picture& picture) const;
+  void drawFade(Picture& picture) const;
+
   Clock clock_;
   std::string title_;
   std::variant<World, ReplayMotion> motion_; ///< simulated or replayed
+  Viewport home_;                            ///< without a camera
   Painter painter_;
-  std::uint64_t fingerprint_; ///< of the scene's text, its clock and its images
+  Timeline timeline_;
+  Film film_;
+  Camera camera_;
+  std::uint32_t ringLook_ = 0; ///< of the first pause; those of the others follow
+  double ringWidth_ = 0.0;     ///< px of the scene
+  std::uint64_t fingerprint_;  ///< of the scene's text, its clock, its images and its sounds
+  std::optional<World>
+      start_; ///< the world at frame 0, where what stands beside the pictures needs its events
+
+  Shot shot_{};
+  Earlier earlier_;
+  std::vector<Body> blended_; ///< what is shown between two frames
+  std::map<std::uint32_t, Vec2>
+      followed_; ///< by id: the centre of a body that the camera follows, now or last
 };
 
 } // namespace offstage

@@ -3,6 +3,7 @@
 #include "src/scene/limits.h"
 #include "src/scene/parse_clock.h"
 #include "src/scene/parse_replay.h"
+#include "src/scene/parse_timeline.h"
 #include "src/scene/quote.h"
 #include "src/scene/scene_builder.h"
 #include "src/scene/text_file.h"
@@ -16,38 +17,6 @@
 
 namespace offstage {
 namespace {
-
-/// A table of which a scene has one, `[frame]`; null when it is absent or no table.
-const TomlValue* singleTable(const TableReader& top, std::string_view key) {
-  const TomlValue* value = top.find(key);
-  if (value == nullptr || value->table() != nullptr) return value;
-  reportMismatch(*value, top.described(key), fmt::format("one table, [{}]", key), top.errors());
-  return nullptr;
-}
-
-void parseSingle(SceneBuilder& builder, const TableReader& top, std::string_view key,
-                 void (*parse)(SceneBuilder&, const TomlValue&)) {
-  if (const TomlValue* table = singleTable(top, key)) parse(builder, *table);
-}
-
-/// Tables of which a scene has any number, `[[body]]`.
-void parseEach(SceneBuilder& builder, const TableReader& top, std::string_view key,
-               void (*parse)(SceneBuilder&, const TomlValue&)) {
-  const TomlValue* value = top.find(key);
-  if (value == nullptr) return;
-  const std::string wanted = fmt::format("an array of tables, [[{}]]", key);
-  if (value->array() == nullptr || value->array()->empty()) {
-    reportMismatch(*value, top.described(key), wanted, builder.errors);
-    return;
-  }
-  for (const TomlValue& element : *value->array()) {
-    if (element.table() == nullptr) {
-      reportMismatch(element, "every value of " + top.described(key), "a table", builder.errors);
-    } else {
-      parse(builder, element);
-    }
-  }
-}
 
 /// Takes the command line's scale and holds the picture's size in output pixels within bounds.
 void checkScale(SceneBuilder& builder, const TableReader& top, const std::optional<double>& given) {
@@ -88,7 +57,6 @@ void parseTables(SceneBuilder& builder, const TomlValue& root, const SceneOverri
   scene.world.pane = Vec2(scene.size[0], scene.size[1]);
   parseClock(builder, singleTable(top, "clock"), top, overrides);
   if (const TomlValue* replay = singleTable(top, "replay")) parseReplay(builder, *replay, top, overrides);
-  parseSingle(builder, top, "golden", parseGolden);
   // The view and the world's integrator come before everything that they hold for.
   parseSingle(builder, top, "view", parseView);
   parseSingle(builder, top, "world", parseWorld);
@@ -102,6 +70,8 @@ void parseTables(SceneBuilder& builder, const TomlValue& root, const SceneOverri
   parseEach(builder, top, "force", parseForce);
   // Behind a wrong force, what has a closed form cannot be told.
   if (builder.errors.count() == errorsBefore) checkExactBodies(builder, errorsBefore == 0);
+  parseTimeline(builder, top, overrides);
+  parseSingle(builder, top, "golden", parseGolden);
 }
 
 } // namespace

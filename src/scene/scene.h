@@ -3,6 +3,7 @@
 #include "src/scene/golden.h"
 #include "src/scene/look.h"
 #include "src/scene/replay.h"
+#include "src/scene/timeline.h"
 #include "src/sim/clock.h"
 #include "src/sim/world_setup.h"
 
@@ -27,10 +28,11 @@ struct Scene {
   double scale = 1.0;                    ///< output pixels per scene pixel
   Clock clock = Clock::fixed(60.0, 600); ///< already cut to the duration
   WorldSetup world;
-  std::vector<Look> looks;            ///< Body::look is an index into these
-  std::vector<std::string> bodyNames; ///< by id of WorldSetup::bodies; empty where unnamed
+  std::vector<Look> looks;              ///< Body::look is an index into these
+  std::vector<std::string> bodyNames;   ///< by id of WorldSetup::bodies; empty where unnamed
   std::shared_ptr<const Replay> replay; ///< null: the world is simulated; else it is empty
   std::optional<GoldenMoments> golden;  ///< what `offstage golden` keeps of it
+  Timeline timeline;                    ///< what it says about its video's time
 };
 
 /// What a command line replaces in a scene, as if it were written there.

@@ -112,4 +112,34 @@ std::optional<std::filesystem::path> SceneBuilder::readFile(const TableReader& r
   return file;
 }
 
+const TomlValue* singleTable(const TableReader& top, std::string_view key) {
+  const TomlValue* value = top.find(key);
+  if (value == nullptr || value->table() != nullptr) return value;
+  reportMismatch(*value, top.described(key), fmt::format("one table, [{}]", key), top.errors());
+  return nullptr;
+}
+
+void parseSingle(SceneBuilder& builder, const TableReader& top, std::string_view key,
+                 void (*parse)(SceneBuilder&, const TomlValue&)) {
+  if (const TomlValue* table = singleTable(top, key)) parse(builder, *table);
+}
+
+void parseEach(SceneBuilder& builder, const TableReader& top, std::string_view key,
+               void (*parse)(SceneBuilder&, const TomlValue&)) {
+  const TomlValue* value = top.find(key);
+  if (value == nullptr) return;
+  const std::string wanted = fmt::format("an array of tables, [[{}]]", key);
+  if (value->array() == nullptr || value->array()->empty()) {
+    reportMismatch(*value, top.described(key), wanted, builder.errors);
+    return;
+  }
+  for (const TomlValue& element : *value->array()) {
+    if (element.table() == nullptr) {
+      reportMismatch(element, "every value of " + top.described(key), "a table", builder.errors);
+    } else {
+      parse(builder, element);
+    }
+  }
+}
+
 } // namespace offstage

@@ -28,6 +28,8 @@ struct SceneBuilder {
   Scene scene;
   ErrorList errors;
   View view;
+  double videoSeconds =
+      0.0; ///< s: how long the video is, as far as the scene itself can tell; after parseTimeline
   Integrator integrator = Integrator::SemiImplicitEuler; ///< the world's
   LookTable looks;
   std::map<std::string, std::uint32_t, std::less<>> groups; ///< by name: index into WorldSetup::groups
@@ -55,6 +57,15 @@ struct SceneBuilder {
   void requireFinite(const TomlValue& table, const std::string& label, std::initializer_list<double> numbers);
 };
 
+/// A table of which a scene has one, `[frame]`; null when it is absent or no table, which is reported.
+const TomlValue* singleTable(const TableReader& top, std::string_view key);
+/// Calls `parse` for that table, if there is one.
+void parseSingle(SceneBuilder& builder, const TableReader& top, std::string_view key,
+                 void (*parse)(SceneBuilder&, const TomlValue&));
+/// Calls `parse` for each of the tables of which a scene has any number, `[[body]]`.
+void parseEach(SceneBuilder& builder, const TableReader& top, std::string_view key,
+               void (*parse)(SceneBuilder&, const TomlValue&));
+
 inline Vec2 toVec2(const std::array<double, 2>& pair) {
   return {pair[0], pair[1]};
 }
@@ -69,7 +80,7 @@ void parseSpawn(SceneBuilder& builder, const TomlValue& table);
 void parseLaunch(SceneBuilder& builder, const TomlValue& table);
 void parseCollide(SceneBuilder& builder, const TomlValue& table);
 void parseForce(SceneBuilder& builder, const TomlValue& table);
-void parseGolden(SceneBuilder& builder, const TomlValue& table); ///< after the clock is known
+void parseGolden(SceneBuilder& builder, const TomlValue& table); ///< after the timeline is known
 
 /// Reports each body, spawn and launch with the integrator "exact" whose motion has no closed form; after all
 /// tables. `startsAreKnown`: every body's numbers are right, so that its start can be judged too.

@@ -21,6 +21,15 @@ constexpr SceneKey kKeys[] = {
     {"", "force", "tables", "", "none"},
     {"", "replay", "table", "", "none"},
     {"", "golden", "table", "", "none"},
+    {"", "timeline", "table", "", "none"},
+    {"", "section", "tables", "", "none"},
+    {"", "caption", "tables", "", "none"},
+    {"", "pause", "tables", "", "none"},
+    {"", "speed", "tables", "", "none"},
+    {"", "camera", "tables", "", "none"},
+    {"", "narration", "table", "", "none"},
+    {"", "sound", "table", "", "none"},
+    {"", "poster", "table", "", "none"},
 
     {"frame", "size", "[width, height]", "px", "[640, 480]"},
     {"frame", "background", "colour", "", "\"white\""},
@@ -175,6 +184,50 @@ constexpr SceneKey kKeys[] = {
     {"golden", "strict_alpha", "boolean", "", "false"},
     {"golden", "ignore", "list of [x, y, width, height]", "px", "none"},
     {"golden", "mask", "file or list", "", "none"},
+
+    {"timeline", "fade_in", "number", "s", "0"},
+    {"timeline", "fade_out", "number", "s", "0"},
+    {"timeline", "fade_color", "colour", "", "\"black\""},
+
+    {"section", "title", "string", "", "required"},
+    {"section", "start", "number", "s", "required"},
+    {"section", "card", "number", "s", "none"},
+    {"section", "subtitle", "string", "", "none"},
+    {"section", "narration", "file", "", "none"},
+
+    {"caption", "text", "string", "", "required"},
+    {"caption", "from", "number", "s", "required"},
+    {"caption", "to", "number", "s", "required"},
+    {"caption", "section", "string", "", "none"},
+    {"caption", "on", "choice", "", "none"},
+    {"caption", "body", "string", "", "none"},
+    {"caption", "for", "number", "s", "2"},
+    {"caption", "limit", "integer", "", "none"},
+
+    {"pause", "at", "number", "s", "required"},
+    {"pause", "for", "number", "s", "required"},
+    {"pause", "highlight", "list of names", "", "none"},
+    {"pause", "style", "choice", "", "\"ring\""},
+    {"pause", "color", "colour", "", "\"#e69f00\""},
+
+    {"speed", "from", "number", "s", "0"},
+    {"speed", "to", "number", "s", "the end"},
+    {"speed", "factor", "number", "", "required"},
+
+    {"camera", "at", "number", "s", "required"},
+    {"camera", "for", "number", "s", "1"},
+    {"camera", "center", "[x, y] or name", "px", "the pane's middle"},
+    {"camera", "zoom", "number", "", "1"},
+    {"camera", "easing", "choice", "", "\"smooth\""},
+    {"camera", "section", "string", "", "none"},
+
+    {"narration", "file", "file", "", "required"},
+    {"narration", "start", "number", "s", "0"},
+
+    {"sound", "clicks", "boolean", "", "false"},
+    {"sound", "loudest", "number", "px/s", "500"},
+
+    {"poster", "at", "number", "s", "half the video"},
 };
 // clang-format on
 

@@ -100,6 +100,34 @@ std::string dump(const Force& force) {
                      force.body ? fmt::format("{}", *force.body) : "all");
 }
 
+std::string dump(const std::optional<SoundFile>& sound) {
+  return sound ? sound->file.filename().string() : "none";
+}
+
+std::string dump(const Timeline& timeline) {
+  std::string text = fmt::format("\ntimeline {} {} {} | narration {} {} | clicks {} {} | poster {}",
+                                 timeline.fadeIn, timeline.fadeOut, dump(Paint(timeline.fadeColor)),
+                                 dump(timeline.narration), timeline.narrationStart, timeline.clicks,
+                                 timeline.loudestClick, timeline.poster.value_or(-1.0));
+  for (const Section& s : timeline.sections)
+    text += fmt::format("\nsection {} {} {} {} {}", s.title, s.start, s.card, s.subtitle, dump(s.narration));
+  for (const Caption& c : timeline.captions)
+    text += fmt::format("\ncaption {} {} {} {}", c.text, c.from, c.to, c.section ? "in a section" : "");
+  for (const EventCaption& c : timeline.eventCaptions) {
+    text += fmt::format("\ncaption {} {} {} {}", c.text, c.length, c.limit.value_or(-1), c.body ? 1 : 0);
+    for (const EventKind kind : c.kinds) text += fmt::format(" {}", name(kind));
+  }
+  for (const Pause& p : timeline.pauses)
+    text += fmt::format("\npause {} {} {} {} {}", p.at, p.length, p.bodies.size(),
+                        static_cast<int>(p.highlight), dump(Paint(p.color)));
+  for (const SpeedChange& s : timeline.speeds)
+    text += fmt::format("\nspeed {} {} {}", s.from, s.to, s.factor);
+  for (const CameraMove& m : timeline.camera)
+    text += fmt::format("\ncamera {} {} {} {} {} {}", m.at, m.length, dump(m.center), m.zoom,
+                        static_cast<int>(m.easing), m.section ? "in a section" : "");
+  return text;
+}
+
 } // namespace
 
 std::string dump(const Scene& scene) {
@@ -121,6 +149,7 @@ std::string dump(const Scene& scene) {
                     rule.restitution, rule.separate, rule.approachingOnly);
   }
   for (const Force& force : world.forces) text += "\nforce " + dump(force);
+  text += dump(scene.timeline);
   if (scene.golden) {
     const Tolerance& t = scene.golden->tolerance;
     text += fmt::format("\ngolden {} | {} {} {} {} {} {} {} {} {}", fmt::join(scene.golden->at, " "),
