@@ -41,6 +41,13 @@ TEST(WithoutOverlaps, CoversEveryMomentOnce) {
   EXPECT_THAT(withoutOverlaps(std::vector<Cue>{}, 20), ElementsAre(Cue{0, 20, ""}));
 }
 
+TEST(WithoutOverlaps, CutsATextThatIsTooLongBehindAWholeCharacter) {
+  std::string wide;
+  for (int i = 0; i < 40000; ++i) wide += "ä"; // two bytes each
+  const std::vector<Cue> row = withoutOverlaps(std::vector<Cue>{{0, 5, wide}}, 5);
+  EXPECT_EQ(row.at(0).text, wide.substr(0, 65534));
+}
+
 TEST(WithoutOverlaps, JoinsNeighboursOfOneText) {
   const std::vector<Cue> cues{{0, 5, "a"}, {5, 9, "a"}};
   EXPECT_THAT(withoutOverlaps(cues, 9), ElementsAre(Cue{0, 9, "a"}));

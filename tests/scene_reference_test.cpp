@@ -119,6 +119,7 @@ Entries baseOf(const std::string& table) {
       {"speed", {{"factor", "2"}}},
       {"camera", {{"at", "1"}}},
       {"narration", {{"file", "\"image.png\""}}},
+      {"text", {{"text", "\"b\""}, {"place", "\"top\""}}},
   };
   const auto found = bases.find(table);
   return found == bases.end() ? Entries{} : found->second;
@@ -160,6 +161,9 @@ Entries with(const std::string& table, const std::string& key, const std::string
   }
   if (table == "caption" && key == "for") drop({"to"});
   if (table == "pause" && (key == "style" || key == "color")) set(entries, "highlight", "[\"b\"]");
+  if (table == "text" && key == "at") drop({"place"});
+  if (table == "text" && key == "padding") set(entries, "background", "\"red\"");
+  if (table == "text" && key == "outline_width") set(entries, "outline", "\"red\"");
   if (table == "stroke" && (key == "anchor" || key == "proportional")) set(entries, "image", "\"image.png\"");
   if ((table == "fill" || table == "stroke") && key == "proportional") set(entries, "anchor", "[0, 0, 1, 1]");
   if (!key.empty()) set(entries, key, value);
@@ -186,7 +190,7 @@ std::string sceneWith(const std::string& table, const Entries& entries) {
   const std::string section = "[[section]]\ntitle = \"b\"\nstart = 0\n";
   if (table == "caption" || table == "camera") return body + section + "[[" + table + "]]\n" + lines;
   const bool many = table == "body" || table == "spawn" || table == "launch" || table == "collide" ||
-                    table == "section" || table == "pause" || table == "speed";
+                    table == "section" || table == "pause" || table == "speed" || table == "text";
   return body + (many ? "[[" + table + "]]\n" : "[" + table + "]\n") + lines;
 }
 
@@ -214,16 +218,19 @@ std::string valueOf(const DocumentedKey& key) {
       {"[x, y] or name", "\"b\""},
       {"[group, group]", "[\"bodies\", \"bodies\"]"},
       {"expression", "\"x + 1\""},
+      {"choice or file", "\"mono\""},
       {"table", "{}"},
   };
   // Words and truths other than the default, so that they have an effect.
   static const std::map<std::string, std::string> words = {
       {"integrator", "rk4"},  {"shape", "circle"}, {"align", "inside"},      {"count", "alive"},
-      {"response", "report"}, {"type", "drag"},    {"when", "after-update"}, {"style", "dim"},
-      {"easing", "in"},       {"on", "collide"},
+      {"response", "report"}, {"type", "drag"},    {"when", "after-update"}, {"place", "bottom"},
+      {"anchor", "left"},     {"style", "dim"},    {"easing", "in"},         {"on", "collide"},
   };
   if (key.type == "boolean") return key.defaultText == "true" ? "false" : "true";
   if (key.key == "leaving") return key.defaultText == "\"keep\"" ? "\"remove\"" : "\"keep\"";
+  if (key.table == "text" && key.key == "align") return "\"right\"";
+  if (key.table == "text" && key.key == "size") return "20.5";
   if (key.type == "choice") return '"' + words.at(key.key) + '"';
   if (key.key == "name") return "\"another\"";
   if (key.key == "recorded") return "\"log.dt\"";

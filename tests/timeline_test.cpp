@@ -6,6 +6,7 @@
 #include "tests/support/temp_dir.h"
 
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <sstream>
 #include <string>
@@ -144,6 +145,34 @@ TEST(Timeline, AStillIsTheVideosFrameAndFromCutsInVideoTime) {
   const ProcessResult later = offstage({"still", scene, "--at", "5.5", "-o", (dir / "x.png").string()});
   EXPECT_EQ(later.status, 2);
   EXPECT_THAT(later.err, HasSubstr("--at 5.5 does not lie within the video's 0 … 5 s"));
+}
+
+TEST(Timeline, TextsComeAndGoByTheVideosTimeWhileThePictureStands) {
+  const TempDir dir;
+  const std::string scene =
+      dir.write("scene.toml", std::string(kWorld) + "[[pause]]\nat = 0\nfor = 1\n[[text]]\ntext = \"t = {t:.1f}\"\n"
+                                                    "place = \"center\"\nsize = 20\nfrom = 0.2\nto = 0.4\n")
+          .string();
+  std::filesystem::create_directory(dir / "f");
+  ASSERT_EQ(offstage({"render", scene, "-o", (dir / "f/%02d.png").string(), "--to", "0.5"}).status, 0);
+  const std::string without = readFile(dir / "f/11.png");
+  const std::string with = readFile(dir / "f/12.png");
+  EXPECT_NE(without, with);
+  EXPECT_EQ(readFile(dir / "f/23.png"), with);
+  EXPECT_EQ(readFile(dir / "f/24.png"), without);
+}
+
+TEST(Timeline, ATitleCardHidesTheScene) {
+  const TempDir dir;
+  const auto card = [&](const std::string& color) {
+    std::string text = kWorld;
+    text.replace(text.find("radius = 8"), 10, "radius = 8\nfill = \"" + color + "\"");
+    const std::string scene = dir.write("scene.toml", text + "[[section]]\ntitle = \"A\"\nstart = 0\ncard = 1\n").string();
+    const std::string out = (dir / "card.png").string();
+    EXPECT_EQ(offstage({"still", scene, "--at", "0.5", "-o", out}).status, 0);
+    return readFile(out);
+  };
+  EXPECT_EQ(card("red"), card("blue"));
 }
 
 TEST(Camera, StaysHomeUntilItsFirstMoveAndArrivesWhereItGoes) {

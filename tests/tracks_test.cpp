@@ -144,6 +144,34 @@ TEST(Tracks, ASidecarThatSomebodyElseWroteIsNeverReplaced) {
   EXPECT_FALSE(std::filesystem::exists(dir / "x.mp4"));
 }
 
+TEST(Tracks, ManyHugeAndTinyCaptionsAreHeld) {
+  const TempDir dir;
+  std::string text = "duration = 1\n[frame]\nsize = [32, 32]\n";
+  const auto add = [&text](const std::string& words, double from, double to) {
+    text += "[[caption]]\ntext = \"" + words + "\"\nfrom = " + std::to_string(from) + "\nto = " + std::to_string(to) + "\n";
+  };
+  for (int i = 0; i < 40; ++i) add(std::string(1999, static_cast<char>('a' + i % 26)), 0.0, 1.0); // 80 kB at once
+  for (int i = 0; i < 300; ++i) add("tiny", 0.2 + i * 0.000999, 0.2 + i * 0.000999 + 0.0009996);
+  const std::string scene = dir.write("scene.toml", text).string();
+  for (const char* name : {"x.mp4", "x.mkv"}) {
+    const ProcessResult result = offstage({"render", scene, "-o", (dir / name).string()});
+    EXPECT_EQ(result.status, 0) << result.err;
+  }
+  EXPECT_GT(decodeTracks(dir / "x.mkv").captions.size(), 300U);
+}
+
+TEST(Tracks, AReplayHasNoEventsToShow) {
+  const TempDir dir;
+  dir.write("t.csv", "frame,time,id,x,y,radius\n0,0,0,1,2,3\n1,1,0,1,2,3\n");
+  const std::string scene = dir.write("scene.toml", "[replay]\ntrace = \"t.csv\"\n[sound]\nclicks = true\n"
+                                                    "[[caption]]\ntext = \"x\"\non = \"bounce\"\n")
+                                .string();
+  const ProcessResult result = offstage({"check", scene});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("'sound' with clicks needs events, but a [replay] simulates nothing"));
+  EXPECT_THAT(result.err, HasSubstr("'caption' with 'on' needs events, but a [replay] simulates nothing"));
+}
+
 TEST(Tracks, AnimationsHaveTheSidecarAndPicturesHaveNone) {
   const TempDir dir;
   const std::string scene = dir.write("scene.toml", kCaptionScene).string();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/draw/image.h"
+#include "render/draw/mask.h"
 #include "src/sim/vec.h"
 
 #include <cstdint>
@@ -57,10 +58,12 @@ struct Primitive {
     Ring,    ///< inner < |p − center| < outer
     Box,     ///< low < p < high
     BoxRing, ///< inside low…high and not inside innerLow…innerHigh
+    Mask,    ///< a mask at whole pixels: low its upper-left corner, high − low its size
   };
   Kind kind = Kind::Disc;
   Rgba8 color;               ///< with a pattern, only .a is used: it multiplies the image's alpha
-  std::int32_t pattern = -1; ///< index into Picture::patterns, or −1
+  std::int32_t pattern = -1; ///< index into Picture::patterns, or −1; of a Mask −1
+  std::int32_t mask = -1;    ///< of a Mask: index into Picture::masks
   Vec2 center = Vec2::Zero();
   double outer = 0.0; ///< ≥ 0
   double inner = 0.0; ///< 0 … outer
@@ -78,10 +81,12 @@ struct Picture {
   PixelRect clip{0, 0, std::numeric_limits<int>::max(), std::numeric_limits<int>::max()};
   std::vector<Primitive> primitives;
   std::vector<PlacedPattern> patterns;
+  std::vector<std::shared_ptr<const Mask>> masks; ///< known by their address: the same mask, the same object
 
   void clear() {
     primitives.clear();
     patterns.clear();
+    masks.clear();
   } ///< keeps the memory for the next frame
 };
 

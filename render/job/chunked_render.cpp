@@ -10,6 +10,7 @@
 #include "render/output/atomic_file.h"
 #include "render/output/codecs.h"
 #include "render/output/file_error.h"
+#include "render/output/output_kind.h"
 #include "src/sim/error.h"
 
 #include <algorithm>
@@ -185,6 +186,8 @@ private:
     std::vector<fs::path> chunks;
     for (std::int64_t chunk = 0; chunk < plan_.chunks(); ++chunk) chunks.push_back(parts.chunk(chunk));
     const VideoTracks tracks = source_.tracks(schedule_.origin(), schedule_.origin() + schedule_.seconds());
+    if (tracks.sound && !holdsSound(outputKind(options_.out)))
+      printNotice(fmt::format("{} holds no sound", quoted(options_.out.filename())));
     output_->setTracks(tracks);
     const std::int64_t bytes = output_->join(chunks, plan_.frames());
     if (sidecar_) sidecar_->write(tracks);

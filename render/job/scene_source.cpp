@@ -12,6 +12,8 @@ namespace {
 constexpr double kDimmed = 0.55;
 /// s: how long pointing at something takes to come and to go.
 constexpr double kHighlightFade = 0.2;
+/// s: how long a title card takes to come and to go.
+constexpr double kCardFade = 0.3;
 /// A ring's width, and its distance from what it is around, as a share of the pane's height.
 constexpr double kRingWidth = 1.0 / 120.0;
 
@@ -32,6 +34,7 @@ std::uint64_t fingerprintOf(const Scene& scene, const Film& film) {
     if (look.fill) addPaint(fingerprint, *look.fill);
     if (look.stroke) addPaint(fingerprint, look.stroke->paint);
   }
+  for (const TextItem& item : scene.texts) fingerprint.addFile(fontFile(item.look.font));
   if (scene.replay) fingerprint.addFile(scene.replay->trace.file);
   for (const Film::Voice& voice : film.voices) fingerprint.addFile(voice.sound.file);
   return fingerprint.value();
@@ -67,6 +70,8 @@ SceneSource::SceneSource(const Scene& scene, Viewport viewport)
       motion_(motionOf(scene)),
       home_(viewport),
       painter_(viewport, scene.background),
+      texts_(scene, viewport),
+      card_(scene, viewport),
       timeline_(scene.timeline),
       film_(makeFilm(timeline_, clock_, narrationLengths(timeline_), title_)),
       camera_(film_.camera, Vec2(scene.size[0], scene.size[1])),
@@ -139,7 +144,7 @@ std::uint64_t SceneSource::shownStateHash() const {
 
 bool SceneSource::followsVideoTime() const {
   return camera_.moves() || timeline_.fadeIn > 0.0 || timeline_.fadeOut > 0.0 || !film_.freezes.empty() ||
-         !film_.cards.empty();
+         !film_.cards.empty() || !texts_.empty();
 }
 
 bool SceneSource::hasCaptions() const {
@@ -153,6 +158,8 @@ VideoTracks SceneSource::tracks(double from, double to) const {
 void SceneSource::draw(Picture& picture) const {
   painter_.begin(picture);
   drawBodies(picture);
+  drawTexts(picture);
+  drawCard(picture);
   drawFade(picture);
 }
 
@@ -185,6 +192,17 @@ void SceneSource::drawBodies(Picture& picture) const {
   }
 }
 
+void SceneSource::drawCard(Picture& picture) const {
+  for (const Film::Card& card : film_.cards) {
+    if (shot_.time < card.from || shot_.time >= card.to) continue;
+    const double share =
+        presence(shot_.time, card.from, card.to, std::min(kCardFade, (card.to - card.from) * 0.25));
+    // At the video's very beginning there is nothing that a card could come out of.
+    card_.draw(picture, card.title, card.subtitle,
+               card.from == 0.0 && shot_.time < card.to - kCardFade ? 1.0 : share);
+  }
+}
+
 /// The fades are over the pane; where the pane does not fill the picture, the background around it fades with
 /// it.
 void SceneSource::drawFade(Picture& picture) const {
@@ -209,6 +227,16 @@ std::uint64_t SceneSource::stateHash() const {
 
 double SceneSource::time() const {
   return std::visit([](const auto& motion) { return motion.time(); }, motion_);
+}
+
+Snapshot SceneSource::snapshot() const {
+  Snapshot snapshot; // a trace has no gravity and no forces
+  if (const auto* world = std::get_if<World>(&motion_)) snapshot = snapshotOf(*world);
+  const auto& [shown, fraction] = shot_.moment;
+  snapshot.frame = fraction > 0.0 ? shown : frame();
+  snapshot.time = fraction > 0.0 ? clock_.time(shown) + fraction * (time() - clock_.time(shown)) : time();
+  snapshot.bodies = shownBodies();
+  return snapshot;
 }
 
 std::span<const Body> SceneSource::bodies() const {

@@ -2,8 +2,11 @@
 
 #include "render/draw/camera.h"
 #include "render/draw/painter.h"
+#include "render/draw/scene_texts.h"
+#include "render/draw/title_card.h"
 #include "render/job/source.h"
 #include "src/scene/scene.h"
+#include "src/sim/probe.h"
 #include "src/sim/world.h"
 
 #include <map>
@@ -39,11 +42,18 @@ public:
   [[nodiscard]] VideoTracks tracks(double from, double to) const override;
 
   [[nodiscard]] double time() const; ///< s of simulated time: of the present frame
+  /// What probes see of what is shown. Valid until the next step.
+  [[nodiscard]] Snapshot snapshot() const;
   /// The bodies of the present frame in the order in which they are drawn. Valid until the next step.
   [[nodiscard]] std::span<const Body> bodies() const;
   /// Those that draw() draws, in the same order. Valid until the next step.
   [[nodiscard]] std::span<const Body> shownBodies() const;
   [[nodiscard]] const Painter& painter() const { return painter_; }
+  /// Those of what is shown. They appear and go by the video's time and stay on the frame, but for those of
+  /// bodies, which go with them.
+  void drawTexts(Picture& picture) const {
+    texts_.draw(picture, snapshot(), shot_.time, painter_.viewport());
+  }
 
 private:
   /// The last frame before the present one, when a moment between the two is shown.
@@ -55,6 +65,7 @@ private:
   void blend(double fraction);
   void noteFollowed();
   void drawBodies(Picture& picture) const;
+  void drawCard(Picture& picture) const;
   void drawFade(Picture& picture) const;
 
   Clock clock_;
@@ -62,12 +73,14 @@ private:
   std::variant<World, ReplayMotion> motion_; ///< simulated or replayed
   Viewport home_;                            ///< without a camera
   Painter painter_;
+  SceneTexts texts_;
+  TitleCard card_;
   Timeline timeline_;
   Film film_;
   Camera camera_;
   std::uint32_t ringLook_ = 0; ///< of the first pause; those of the others follow
   double ringWidth_ = 0.0;     ///< px of the scene
-  std::uint64_t fingerprint_;  ///< of the scene's text, its clock, its images and its sounds
+  std::uint64_t fingerprint_;  ///< of the scene's text, its clock, its images, its fonts and its sounds
   std::optional<World>
       start_; ///< the world at frame 0, where what stands beside the pictures needs its events
 

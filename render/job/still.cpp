@@ -74,6 +74,7 @@ Still drawStill(SceneSource& source, double at, int strobe) {
     source.draw(picture);
   } else {
     drawMoments(source, at, strobe, picture);
+    source.drawTexts(picture); // of the last moment
   }
   Still still;
   still.alpha = picture.background.a != 255;

@@ -1,6 +1,7 @@
 #include "render/output/captions.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -23,6 +24,14 @@ void addCue(std::string& file, std::int64_t start, std::int64_t end, std::string
   const std::int64_t from = milliseconds(start);
   const std::int64_t to = milliseconds(end);
   if (from < to) file += fmt::format("\n{} --> {}\n{}\n", timestamp(from), timestamp(to), webVttText(text));
+}
+
+/// As much of a text as a 16-bit length can say, in whole characters.
+void cutToMovText(std::string& text) {
+  std::size_t length = std::numeric_limits<std::uint16_t>::max();
+  if (text.size() <= length) return;
+  while ((static_cast<unsigned char>(text[length]) & 0xc0U) == 0x80U) --length; // a character's later bytes
+  text.resize(length);
 }
 
 } // namespace
@@ -80,6 +89,7 @@ std::vector<Cue> withoutOverlaps(std::span<const Cue> cues, std::int64_t end) {
       if (cues[next].end > now) shown.push_back(&cues[next]);
     std::string text;
     for (const Cue* cue : shown) text += (text.empty() ? "" : "\n") + cue->text;
+    cutToMovText(text);
     if (!row.empty() && row.back().text == text)
       row.back().end = moments[i + 1];
     else

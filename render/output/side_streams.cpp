@@ -42,15 +42,8 @@ libav::Packet packetOf(std::string_view bytes, std::int64_t start, std::int64_t 
   return packet;
 }
 
-/// A text's length in two bytes, highest first, and the text (3GPP TS 26.245, 5.17). Overlapping captions may
-/// together be longer than a length can say: then whole characters are left out at the end.
+/// A text's length in two bytes, highest first, and the text (3GPP TS 26.245, 5.17).
 std::string movTextOf(std::string_view text) {
-  constexpr std::size_t kMost = std::numeric_limits<std::uint16_t>::max();
-  if (text.size() > kMost) {
-    std::size_t length = kMost;
-    while ((static_cast<unsigned char>(text[length]) & 0xc0U) == 0x80U) --length;
-    text = text.substr(0, length);
-  }
   std::string sample{static_cast<char>(text.size() >> 8U), static_cast<char>(text.size() & 0xffU)};
   return sample.append(text);
 }

@@ -160,10 +160,13 @@ private:
 
 SoundMix::SoundMix(std::vector<PlacedSound> voices, std::vector<Click> clicks, std::int64_t length)
     : unlimited_(std::make_unique<Unlimited>(std::move(voices), std::move(clicks), length)),
-      limiter_(*unlimited_) {
+      limiter_(*unlimited_) {}
+
+void SoundMix::level() {
+  levelled_ = true;
   if (!unlimited_->hasVoices()) return;
-  // The limiter takes a little off what is loud, so its result is measured again. Hundredths of a decibel
-  // make the gain the same on every machine, whatever the last bit of the measurement.
+  // The limiter takes a little off what is loud, so its result is measured again. Hundredths of a decibel make
+  // the gain the same on every machine, whatever the last bit of the measurement.
   unlimited_->setClicks(false);
   double loudness = loudnessOf(*unlimited_);
   for (int pass = 0; pass < kMostPasses && std::isfinite(loudness); ++pass) {
@@ -179,10 +182,12 @@ SoundMix::SoundMix(std::vector<PlacedSound> voices, std::vector<Click> clicks, s
 SoundMix::~SoundMix() = default;
 
 void SoundMix::rewind() {
+  if (!levelled_) level();
   limiter_.rewind();
 }
 
 std::size_t SoundMix::read(std::span<float> samples) {
+  if (!levelled_) rewind();
   return limiter_.read(samples);
 }
 

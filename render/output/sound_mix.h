@@ -40,12 +40,14 @@ public:
   void rewind() override;
   std::size_t read(std::span<float> samples) override;
 
-  [[nodiscard]] double gain() const; ///< dB: of the voices
+  [[nodiscard]] double gain() const; ///< dB: of the voices, once they are measured
 
 private:
+  void level(); ///< finds the gain
   class Unlimited;
   std::unique_ptr<Unlimited> unlimited_;
   PeakLimiter limiter_;
+  bool levelled_ = false;
 };
 
 /// The integrated loudness of a whole sound in LUFS (ITU-R BS.1770-4, by libebur128); −∞ when it is silent.

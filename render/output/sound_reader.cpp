@@ -20,6 +20,8 @@ namespace {
 /// Demuxers that read one file and name no others.
 constexpr const char* kFormats = "wav,w64,mp3,mov,mp4,m4a,flac,ogg,aiff";
 constexpr std::int64_t kMostSamples = std::int64_t{4} * 3600 * kSoundRate;
+constexpr int kLeastRate = 1000;
+constexpr int kMostRate = 768000;
 /// A sample beyond this is no sound but damage; full scale is 1.
 constexpr float kLoudest = 8.0F;
 
@@ -76,7 +78,10 @@ void SoundReader::openDecoder() {
 }
 
 void SoundReader::openResampler() {
-  if (decoder_->sample_rate <= 0 || decoder_->ch_layout.nb_channels <= 0) fail("does not describe its sound");
+  const int rate = decoder_->sample_rate;
+  if (rate < kLeastRate || rate > kMostRate)
+    fail(fmt::format("has {} samples a second, not from {} to {}", rate, kLeastRate, kMostRate));
+  if (decoder_->ch_layout.nb_channels <= 0) fail("does not describe its sound");
   AVChannelLayout from{};
   if (decoder_->ch_layout.order == AV_CHANNEL_ORDER_UNSPEC)
     av_channel_layout_default(&from, decoder_->ch_layout.nb_channels);

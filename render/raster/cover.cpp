@@ -23,6 +23,7 @@ CoverTest::CoverTest(const Primitive& primitive)
   if (!round_) {
     boxOutside_ = boundsOf(primitive.low, primitive.high, kMargin);
     boxInside_ = boundsOf(primitive.low, primitive.high, -kMargin);
+    if (primitive.kind == Primitive::Kind::Mask) boxInside_ = nowhere();
     holed_ = primitive.kind == Primitive::Kind::BoxRing;
     if (holed_) {
       boxRim_ = boundsOf(primitive.innerLow, primitive.innerHigh, kMargin);
@@ -42,6 +43,12 @@ CoverTest::CoverTest(const Primitive& primitive)
     rim_ = squared(primitive.inner + kMargin);
     hole_ = squared(primitive.inner - kMargin);
   }
+}
+
+/// Holds no rectangle: what a mask covers wholly is not asked, for letters hardly cover a tile.
+CoverTest::Bounds CoverTest::nowhere() {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return {kInfinity, kInfinity, -kInfinity, -kInfinity};
 }
 
 CoverTest::Bounds CoverTest::boundsOf(const Vec2& low, const Vec2& high, double grown) {

@@ -34,6 +34,7 @@ private:
       return rect.left >= left && rect.right <= right && rect.top >= top && rect.bottom <= bottom;
     }
   };
+  static Bounds nowhere();
   static Bounds boundsOf(const Vec2& low, const Vec2& high, double grown);
 
   [[nodiscard]] Cover ofCircle(const PixelRect& rect) const {

@@ -12,12 +12,17 @@ bool samePattern(const DisplayList& a, const Primitive& ofA, const DisplayList& 
          b.patterns.at(static_cast<std::size_t>(ofB.pattern));
 }
 
+bool sameMask(const DisplayList& a, const Primitive& ofA, const DisplayList& b, const Primitive& ofB) {
+  if (ofA.kind != Primitive::Kind::Mask) return true;
+  return a.masks.at(static_cast<std::size_t>(ofA.mask)) == b.masks.at(static_cast<std::size_t>(ofB.mask));
+}
+
 bool samePrimitive(const DisplayList& a, std::size_t i, const DisplayList& b, std::size_t j) {
   const Primitive& x = a.primitives[i];
   const Primitive& y = b.primitives[j];
   return x.kind == y.kind && x.color == y.color && x.center == y.center && x.outer == y.outer &&
          x.inner == y.inner && x.low == y.low && x.high == y.high && x.innerLow == y.innerLow &&
-         x.innerHigh == y.innerHigh && samePattern(a, x, b, y);
+         x.innerHigh == y.innerHigh && samePattern(a, x, b, y) && sameMask(a, x, b, y);
 }
 
 Layer makeLayer(const DisplayList& list, const Primitive& primitive, int largestPoint,
@@ -29,7 +34,9 @@ Layer makeLayer(const DisplayList& list, const Primitive& primitive, int largest
   layer.visible = true;
   layer.instance = drawable->instance;
   layer.program = {drawable->coverage, PaintSource::Color, drawable->footprint};
-  if (primitive.pattern >= 0) {
+  if (primitive.kind == Primitive::Kind::Mask) {
+    patterns.place(list.masks.at(static_cast<std::size_t>(primitive.mask)), layer.instance);
+  } else if (primitive.pattern >= 0) {
     const PlacedPattern& pattern = list.patterns.at(static_cast<std::size_t>(primitive.pattern));
     layer.program.paint =
         patterns.place(pattern, layer.instance) ? PaintSource::Reduced : PaintSource::Pattern;
@@ -46,6 +53,7 @@ void updateDisplayList(const Picture& picture, int largestPoint, const DisplayLi
               std::min(picture.clip.right, picture.width), std::min(picture.clip.bottom, picture.height)};
   now.primitives = picture.primitives;
   now.patterns = picture.patterns;
+  now.masks = picture.masks;
   changes.clear();
 
   const std::size_t old = before.clip == now.clip ? before.primitives.size() : 0;

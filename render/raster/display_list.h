@@ -6,6 +6,7 @@
 #include "render/raster/shader_sources.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace offstage {
@@ -27,6 +28,7 @@ struct DisplayList {
   PixelRect clip; ///< inside the canvas
   std::vector<Primitive> primitives;
   std::vector<PlacedPattern> patterns;
+  std::vector<std::shared_ptr<const Mask>> masks;
   std::vector<Layer> layers; ///< one a primitive
 };
 

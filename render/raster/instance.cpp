@@ -98,6 +98,13 @@ void setBox(const Primitive& primitive, const PixelRect& bounds, Drawable& drawa
   drawable.coverage = Coverage::Box;
 }
 
+/// Bounds and mask stand on whole pixels, so the mask's corner is the origin.
+void setMask(const Primitive& primitive, Drawable& drawable) {
+  drawable.instance.origin = {static_cast<std::int16_t>(primitive.low.x()),
+                              static_cast<std::int16_t>(primitive.low.y())};
+  drawable.coverage = Coverage::Mask;
+}
+
 /// The bounds, made square where a point can draw them: a circle's bounds differ by at most one pixel in
 /// width and height, and what is added lies outside the circle unless the clip has cut the bounds.
 Footprint chooseFootprint(PixelRect& bounds, const PixelRect& clip, int largestPoint) {
@@ -129,10 +136,14 @@ std::optional<Drawable> makeDrawable(const Primitive& primitive, const PixelRect
   Drawable drawable{};
   if (round) {
     setCircle(primitive, clip, drawable);
+  } else if (primitive.kind == Kind::Mask) {
+    setMask(primitive, drawable);
   } else {
     setBox(primitive, bounds, drawable);
   }
-  drawable.footprint = chooseFootprint(bounds, clip, largestPoint);
+  // Beyond its bounds a mask has no texels, so they are not made square.
+  drawable.footprint =
+      primitive.kind == Kind::Mask ? Footprint::Quad : chooseFootprint(bounds, clip, largestPoint);
   Instance& instance = drawable.instance;
   instance.quad = {static_cast<std::uint16_t>(bounds.left), static_cast<std::uint16_t>(bounds.top),
                    static_cast<std::uint16_t>(bounds.right), static_cast<std::uint16_t>(bounds.bottom)};

@@ -18,8 +18,9 @@ enum class Coverage : std::uint8_t {
   Box,          ///< a rectangle, with or without a rectangular hole
   DiscOnGround, ///< a Disc laid over one known opaque colour, which it replaces without blending
   Whole, ///< every pixel wholly: what was there is replaced by Instance::color as it is, without blending
+  Mask,  ///< a texel of the store a pixel
 };
-inline constexpr std::size_t kCoverageCount = 7;
+inline constexpr std::size_t kCoverageCount = 8;
 
 /// From this radius on, the edge inside a pixel is taken as the parabola that osculates it, and integrated
 /// over four columns. Measured error against the exact area: at most 2.5/255.
@@ -47,8 +48,9 @@ struct Instance {
   /// The hole, in the same form; a box without one has low = high. DiscOnGround: r, g, b of the ground (0 …
   /// 255).
   std::array<float, 4> inner{};
-  std::array<std::int32_t, 4> texels{}; ///< pattern: first texel in the store, width, height, 1 if it repeats
-  std::array<float, 4> texelMap{};      ///< pattern: texel coordinate at `origin`, then texels per px
+  /// pattern: first texel in the store, width, height, 1 if it repeats; mask: first texel, width, height, 0
+  std::array<std::int32_t, 4> texels{};
+  std::array<float, 4> texelMap{};         ///< pattern: texel coordinate at `origin`, then texels per px
   std::array<float, 2> window{1.0F, 1.0F}; ///< pattern: texels to average along each axis, 1 … 2
 };
 

@@ -30,9 +30,11 @@ flat out vec2 vOrigin;
 #ifdef HAS_INNER
 flat out vec4 vInner;
 #endif
+#ifdef HAS_TEXELS
+flat out ivec4 vTexels;
+#endif
 #ifdef PATTERN
 flat out vec3 vWindowAlpha;
-flat out ivec4 vTexels;
 flat out vec4 vTexelMap;
 #else
 flat out vec4 vColor; // premultiplied
@@ -61,9 +63,11 @@ void main() {
   vInner = inner;
 #endif
   float alpha = float(color.a) * (1.0 / 255.0);
+#ifdef HAS_TEXELS
+  vTexels = texels;
+#endif
 #ifdef PATTERN
   vWindowAlpha = vec3(window, alpha);
-  vTexels = texels;
   vTexelMap = texelMap;
 #else
 #ifdef WHOLE
@@ -85,9 +89,12 @@ flat in vec2 vOrigin;
 #ifdef HAS_INNER
 flat in vec4 vInner;
 #endif
+#ifdef HAS_TEXELS
+flat in ivec4 vTexels;
+uniform samplerBuffer store;
+#endif
 #ifdef PATTERN
 flat in vec3 vWindowAlpha;
-flat in ivec4 vTexels;
 flat in vec4 vTexelMap;
 #else
 flat in vec4 vColor;
@@ -182,12 +189,18 @@ float insideBox(vec2 p, vec4 edges) {
 }
 )";
 
+/// A pixel of a mask is a texel. p, from the mask's corner, is the middle of a pixel, so its floor is sure.
+constexpr const char* kMask = R"(
+float insideMask(vec2 p) {
+  ivec2 at = ivec2(floor(p));
+  return texelFetch(store, vTexels.x + at.y * vTexels.y + at.x).a;
+}
+)";
+
 /// The pattern's colour, premultiplied: the mean of the image, each texel a rectangle of its colour, over the
 /// window (1 to 2 texels an axis) around the pixel's centre. A window of one texel is bilinear interpolation.
 /// TAPS texels an axis are enough: 2 for windows of one texel, else 3.
 constexpr const char* kPattern = R"(
-uniform samplerBuffer store;
-
 vec4 texel(int x, int y) { return texelFetch(store, vTexels.x + y * vTexels.y + x); }
 
 int place(int i, int count) {
@@ -249,6 +262,8 @@ std::string coverageFunctions(Coverage coverage) {
     return columns + kLarge + kSmall;
   case Coverage::Box:
     return kBox;
+  case Coverage::Mask:
+    return kMask;
   case Coverage::Whole:
     break;
   }
@@ -268,6 +283,8 @@ const char* coverageExpression(Coverage coverage) {
     return "insideAny(fromOrigin(), vOuter) - insideAny(fromOrigin(), vInner)";
   case Coverage::Box:
     return "insideBox(fromOrigin(), vOuter) - insideBox(fromOrigin(), vInner)";
+  case Coverage::Mask:
+    return "insideMask(fromOrigin())";
   case Coverage::Whole:
     break;
   }
@@ -290,8 +307,11 @@ std::string preamble(const ProgramKind& kind) {
                     kind.coverage == Coverage::Ring;
   if (kind.paint != PaintSource::Color || (!arcs && kind.coverage != Coverage::Whole))
     text += "#define HAS_ORIGIN\n";
-  if (kind.coverage != Coverage::Disc && kind.coverage != Coverage::Whole) text += "#define HAS_INNER\n";
+  const bool mask = kind.coverage == Coverage::Mask;
+  if (kind.coverage != Coverage::Disc && kind.coverage != Coverage::Whole && !mask)
+    text += "#define HAS_INNER\n";
   if (kind.paint != PaintSource::Color) text += "#define PATTERN\n";
+  if (kind.paint != PaintSource::Color || mask) text += "#define HAS_TEXELS\n";
   if (kind.footprint == Footprint::Point) text += "#define POINT\n";
   text += fmt::format("#define TAPS {}\n", kind.paint == PaintSource::Reduced ? 3 : 2);
   text += fmt::format("#define SMALL_CURVATURE {:.9f}\n", 1.0 / kLeastArcRadius);

@@ -20,4 +20,16 @@ bool Stage::contains(const Node& node) const {
   return std::ranges::find(entries_, node, &Entry::node) != entries_.end();
 }
 
+void Stage::add(const Text& text) {
+  if (!contains(text)) texts_.push_back({text});
+}
+
+void Stage::remove(const Text& text) {
+  std::erase_if(texts_, [&](const TextEntry& entry) { return entry.text == text; });
+}
+
+bool Stage::contains(const Text& text) const {
+  return std::ranges::find(texts_, text, &TextEntry::text) != texts_.end();
+}
+
 } // namespace offstage

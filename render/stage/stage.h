@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/stage/node.h"
+#include "render/stage/text.h"
 #include "src/sim/clock.h"
 #include "src/sim/random.h"
 
@@ -39,6 +40,11 @@ public:
   [[nodiscard]] bool contains(const Node& node) const;
   [[nodiscard]] std::size_t count() const { return entries_.size(); } ///< shapes on the stage
 
+  // The same for texts, which lie over all shapes.
+  void add(const Text& text);
+  void remove(const Text& text);
+  [[nodiscard]] bool contains(const Text& text) const;
+
 private:
   friend class StageSource;
   struct Entry {
@@ -53,6 +59,11 @@ private:
   Random random_;
   Tick now_;
   std::vector<Entry> entries_;
+  struct TextEntry {
+    Text text;
+    std::uint64_t checked = 0; ///< the version that was held against its font
+  };
+  std::vector<TextEntry> texts_;
   std::vector<std::uint32_t> freeLooks_; ///< of shapes that were removed, to be used again
   std::uint32_t nextId_ = 0;
 };

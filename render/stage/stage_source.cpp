@@ -2,6 +2,7 @@
 
 #include "render/job/fingerprint.h"
 #include "src/scene/dt_log.h"
+#include "src/scene/limits.h"
 #include "src/sim/error.h"
 #include "src/sim/state_hash.h"
 
@@ -43,15 +44,18 @@ StageSource::StageSource(std::unique_ptr<Exercise> exercise, const RenderOptions
       clock_(makeClock(exercise_->settings(), options)),
       stage_(checked(exercise_->settings()), options.seed.value_or(exercise_->settings().seed)),
       painter_(options.viewport(stage_.width(), stage_.height(), options.scale.value_or(1.0)),
-               stage_.settings_.background) {
+               stage_.settings_.background),
+      textPainter_(painter_.viewport()) {
   exercise_->start(stage_);
   prepareLooks();
+  checkTexts();
 }
 
 void StageSource::step() {
   stage_.now_ = clock_.tick(stage_.frame() + 1);
   exercise_->frame(stage_, stage_.now_.dt);
   prepareLooks();
+  checkTexts();
 }
 
 void StageSource::draw(Picture& picture) const {
@@ -63,6 +67,10 @@ void StageSource::draw(Picture& picture) const {
       painter_.circle(picture, node.position, node.radius, entry.look);
     else
       painter_.rectangle(picture, node.position, node.size, entry.look);
+  }
+  for (const Stage::TextEntry& entry : stage_.texts_) {
+    const Text::State& text = *entry.text.state_;
+    if (text.visible) textPainter_.draw(picture, text.text, text.look, text.position, 1.0, true);
   }
 }
 
@@ -79,6 +87,18 @@ std::uint64_t StageSource::fingerprint() const {
   Fingerprint fingerprint;
   fingerprint.add(clock_);
   return fingerprint.value();
+}
+
+void StageSource::checkTexts() {
+  for (Stage::TextEntry& entry : stage_.texts_) {
+    const Text::State& text = *entry.text.state_;
+    if (entry.checked == text.version) continue;
+    if (!(text.look.size >= kLeastTextSize && text.look.size <= kMostTextSize))
+      throw Error(ExitCode::BadInput, fmt::format("a text's size {} px is not from {} to {}", text.look.size,
+                                                  kLeastTextSize, kMostTextSize));
+    textPainter_.require(text.look, text.text);
+    entry.checked = text.version;
+  }
 }
 
 void StageSource::prepareLooks() {

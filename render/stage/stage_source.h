@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/draw/painter.h"
+#include "render/draw/text_painter.h"
 #include "render/job/render_options.h"
 #include "render/job/source.h"
 #include "render/stage/exercise.h"
@@ -28,11 +29,14 @@ public:
 private:
   /// Gives every shape whose look is new or has changed its place among the painter's looks.
   void prepareLooks();
+  /// Holds every new or changed text against its font.
+  void checkTexts();
 
   std::unique_ptr<Exercise> exercise_;
   Clock clock_;
   Stage stage_;
   Painter painter_;
+  TextPainter textPainter_;
 };
 
 } // namespace offstage

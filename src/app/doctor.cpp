@@ -1,3 +1,4 @@
+#include "render/draw/font_library.h"
 #include "render/output/codecs.h"
 #include "render/raster/canvas.h"
 #include "src/app/commands.h"
@@ -49,13 +50,17 @@ bool reportCodecs() {
 
 bool reportFonts() {
   bool all = true;
-  for (const std::string_view name : {"DejaVuSans.ttf", "DejaVuSansMono.ttf"}) {
-    const std::filesystem::path file = std::filesystem::path("/usr/share/fonts/truetype/dejavu") / name;
-    std::error_code ignored;
-    const bool present = std::filesystem::is_regular_file(file, ignored);
-    all = all && present;
-    line("font", present ? fmt::format("ok: {}", file.string())
-                         : fmt::format("missing: {}; install fonts-dejavu-core", name));
+  FontLibrary fonts;
+  for (const Typeface typeface : {Typeface::Sans, Typeface::SansBold, Typeface::Mono, Typeface::MonoBold}) {
+    FontChoice choice;
+    choice.typeface = typeface;
+    try {
+      static_cast<void>(fonts.get(choice));
+      line("font", fmt::format("ok: {}", fontFile(choice).string()));
+    } catch (const Error& error) {
+      all = false;
+      line("font", fmt::format("missing: {}", error.what()));
+    }
   }
   return all;
 }

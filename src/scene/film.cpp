@@ -22,6 +22,17 @@ std::int64_t framesOf(double seconds, double fps) {
   return std::max<std::int64_t>(std::llround(seconds * fps), 1);
 }
 
+/// A scene's title as a chapter's: no longer than one may be, in whole characters, and without control characters.
+std::string chapterTitle(std::string title) {
+  if (title.size() > kMaxSectionBytes) {
+    std::size_t length = kMaxSectionBytes;
+    while ((static_cast<unsigned char>(title[length]) & 0xc0U) == 0x80U) --length; // a character's later bytes
+    title.resize(length);
+  }
+  std::ranges::replace_if(title, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+  return title;
+}
+
 /// Works the map and what depends on it out, step by step.
 class FilmMaker {
 public:
@@ -74,6 +85,12 @@ private:
                                             numberText(film_.seconds))});
   }
 
+  void rejectStart(const Section& section, std::int64_t shift) {
+    std::string what = "'start' in [[section]]";
+    if (shift > 0) what += fmt::format(" ({} s, moved by narrations)", numberText(section.start));
+    reject(section.where, what, shift > 0 ? section.start + seconds(shift) : section.start);
+  }
+
   /// From the last one on, so that of two pauses at one moment the first comes first.
   void addPauses() {
     for (std::size_t i = timeline_.pauses.size(); i-- > 0;) {
@@ -93,7 +110,7 @@ private:
       const std::int64_t start = firstFrameFrom(section.start, fps_) + shift;
       if (start >= std::max<std::int64_t>(map_.frames(), 1) && section.card == 0.0) {
         film_.seconds = static_cast<double>(map_.frames()) / fps_;
-        if (!timeline_.cut) reject(section.where, "'start' in [[section]]", section.start);
+        if (!timeline_.cut) rejectStart(section, shift);
         break;
       }
       const std::int64_t from = std::min(start, map_.frames());
@@ -134,7 +151,7 @@ private:
     sectionStarts_.reserve(chapters.size());
     for (const Film::Chapter& chapter : chapters) sectionStarts_.push_back(chapter.start);
     if (!chapters.empty() && chapters.front().start > 0.0)
-      chapters.insert(chapters.begin(), {title, 0.0, 0.0});
+      chapters.insert(chapters.begin(), {chapterTitle(title), 0.0, 0.0});
     for (std::size_t i = 0; i < chapters.size(); ++i)
       chapters[i].end = i + 1 < chapters.size() ? chapters[i + 1].start : film_.seconds;
   }

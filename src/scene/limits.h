@@ -17,6 +17,10 @@ inline constexpr double kMaxFps = 1e6;              ///< 1/s
 inline constexpr std::int64_t kMaxSubsteps = 10000; ///< steps per frame
 inline constexpr std::size_t kMaxForces = 10000;    ///< [[force]] tables of a scene
 inline constexpr std::size_t kMaxExpressionLength = 4096; ///< characters
+inline constexpr std::size_t kMaxTexts = 1000;            ///< [[text]] tables of a scene
+inline constexpr std::size_t kMaxTextBytes = 4096;        ///< of one text or formula
+inline constexpr double kLeastTextSize = 4.0;             ///< px: less cannot be read
+inline constexpr double kMostTextSize = 1024.0;           ///< px
 inline constexpr std::size_t kMaxDiagnostics = 1000;      ///< errors that one run lists
 
 } // namespace offstage

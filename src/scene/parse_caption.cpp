@@ -5,6 +5,7 @@
 #include "src/scene/quote.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 #include <fmt/core.h>
@@ -12,19 +13,25 @@
 namespace offstage {
 namespace {
 
+/// A set of kinds of events, a bit each.
+template <class... Kinds>
+constexpr std::uint32_t bits(Kinds... kinds) {
+  return ((1U << static_cast<unsigned>(kinds)) | ...);
+}
+
 /// What may start a caption. "bounce" is any of the pane's edges.
-constexpr Choice<std::array<EventKind, 4>> kEvents[] = {
-    {"bounce", {EventKind::Left, EventKind::Right, EventKind::Top, EventKind::Bottom}},
-    {"left", {EventKind::Left, EventKind::Left, EventKind::Left, EventKind::Left}},
-    {"right", {EventKind::Right, EventKind::Right, EventKind::Right, EventKind::Right}},
-    {"top", {EventKind::Top, EventKind::Top, EventKind::Top, EventKind::Top}},
-    {"bottom", {EventKind::Bottom, EventKind::Bottom, EventKind::Bottom, EventKind::Bottom}},
-    {"collide", {EventKind::Collide, EventKind::Collide, EventKind::Collide, EventKind::Collide}},
-    {"hit", {EventKind::Hit, EventKind::Hit, EventKind::Hit, EventKind::Hit}},
-    {"touch", {EventKind::Touch, EventKind::Touch, EventKind::Touch, EventKind::Touch}},
-    {"spawn", {EventKind::Spawn, EventKind::Spawn, EventKind::Spawn, EventKind::Spawn}},
-    {"fire", {EventKind::Fire, EventKind::Fire, EventKind::Fire, EventKind::Fire}},
-    {"leave", {EventKind::Leave, EventKind::Leave, EventKind::Leave, EventKind::Leave}},
+constexpr Choice<std::uint32_t> kEvents[] = {
+    {"bounce", bits(EventKind::Left, EventKind::Right, EventKind::Top, EventKind::Bottom)},
+    {"left", bits(EventKind::Left)},
+    {"right", bits(EventKind::Right)},
+    {"top", bits(EventKind::Top)},
+    {"bottom", bits(EventKind::Bottom)},
+    {"collide", bits(EventKind::Collide)},
+    {"hit", bits(EventKind::Hit)},
+    {"touch", bits(EventKind::Touch)},
+    {"spawn", bits(EventKind::Spawn)},
+    {"fire", bits(EventKind::Fire)},
+    {"leave", bits(EventKind::Leave)},
 };
 
 /// A text that is shown as it is: no control characters but line ends (\n, or \r\n, which becomes \n),
@@ -77,10 +84,9 @@ void readTimes(SceneBuilder& builder, const TableReader& reader, Caption& captio
 void readEvent(SceneBuilder& builder, const TableReader& reader, std::string text) {
   EventCaption caption;
   caption.text = std::move(text);
-  if (const auto kinds = reader.givenChoice("on", kEvents)) {
-    caption.kinds.assign(kinds->begin(), kinds->end());
-    caption.kinds.erase(std::unique(caption.kinds.begin(), caption.kinds.end()), caption.kinds.end());
-  }
+  const std::uint32_t kinds = reader.givenChoice("on", kEvents).value_or(0);
+  for (unsigned kind = 0; kinds >> kind != 0; ++kind)
+    if ((kinds >> kind & 1U) != 0) caption.kinds.push_back(static_cast<EventKind>(kind));
   for (const char* key : {"from", "to", "section"}) reader.rejectBoth(key, "on");
   caption.length = reader.number("for", Range::aboveUpTo(0.0, kMaxDuration));
   caption.limit = reader.givenInteger("limit", 1, std::numeric_limits<std::int64_t>::max());

@@ -168,6 +168,11 @@ void parseTimeline(SceneBuilder& builder, const TableReader& top, const SceneOve
   parseSingle(builder, top, "narration", parseNarration);
   parseSingle(builder, top, "sound", parseSound);
   parseSingle(builder, top, "poster", parsePoster);
+  if (builder.scene.replay) {
+    constexpr const char* kNothing = "needs events, but a [replay] simulates nothing";
+    if (!timeline.eventCaptions.empty()) top.reject("caption", fmt::format("with 'on' {}", kNothing));
+    if (timeline.clicks) top.reject("sound", fmt::format("with clicks {}", kNothing));
+  }
   builder.videoSeconds = hasNarration(timeline) ? kMaxDuration : clock.duration();
   if (builder.errors.count() > errorsBefore || hasNarration(timeline) || clock.steps() == 0) return;
   try {

@@ -72,6 +72,8 @@ void parseTables(SceneBuilder& builder, const TomlValue& root, const SceneOverri
   if (builder.errors.count() == errorsBefore) checkExactBodies(builder, errorsBefore == 0);
   parseTimeline(builder, top, overrides);
   parseSingle(builder, top, "golden", parseGolden);
+  // Texts show values of what all others have named.
+  parseEach(builder, top, "text", parseText);
 }
 
 } // namespace

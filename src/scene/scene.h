@@ -3,6 +3,8 @@
 #include "src/scene/golden.h"
 #include "src/scene/look.h"
 #include "src/scene/replay.h"
+#include "src/scene/text_item.h"
+#include "src/scene/theme.h"
 #include "src/scene/timeline.h"
 #include "src/sim/clock.h"
 #include "src/sim/world_setup.h"
@@ -33,6 +35,8 @@ struct Scene {
   std::shared_ptr<const Replay> replay; ///< null: the world is simulated; else it is empty
   std::optional<GoldenMoments> golden;  ///< what `offstage golden` keeps of it
   Timeline timeline;                    ///< what it says about its video's time
+  Theme theme;
+  std::vector<TextItem> texts; ///< drawn over the bodies, in this order
 };
 
 /// What a command line replaces in a scene, as if it were written there.

@@ -81,6 +81,7 @@ void parseLaunch(SceneBuilder& builder, const TomlValue& table);
 void parseCollide(SceneBuilder& builder, const TomlValue& table);
 void parseForce(SceneBuilder& builder, const TomlValue& table);
 void parseGolden(SceneBuilder& builder, const TomlValue& table); ///< after the timeline is known
+void parseText(SceneBuilder& builder, const TomlValue& table);
 
 /// Reports each body, spawn and launch with the integrator "exact" whose motion has no closed form; after all
 /// tables. `startsAreKnown`: every body's numbers are right, so that its start can be judged too.

@@ -128,6 +128,26 @@ std::string dump(const Timeline& timeline) {
   return text;
 }
 
+std::string dump(const std::optional<Color>& color) {
+  return color ? dump(Paint(*color)) : "none";
+}
+
+std::string dump(const TextItem& item) {
+  const TextLook& look = item.look;
+  std::string text =
+      fmt::format("at {} place {} offset {} from {} to {} fade {} size {} font {} {} color {} opacity {} "
+                  "anchor {} align {} "
+                  "line {} background {} {} outline {} {} upwards {}:",
+                  dump(item.at), item.place ? static_cast<int>(*item.place) : -1, dump(item.offset),
+                  item.from, item.to, item.fade, look.size, static_cast<int>(look.font.typeface),
+                  look.font.file.string(), dump(Paint(look.color)), look.opacity,
+                  static_cast<int>(look.anchor), static_cast<int>(look.align), look.lineHeight,
+                  dump(look.background), look.padding, dump(look.outline), look.outlineWidth, look.upwards);
+  for (const TextTemplate::Piece& piece : item.text.pieces)
+    text += fmt::format(" {} {}", piece.text, piece.probe ? static_cast<int>(piece.probe->quantity) : -1);
+  return text;
+}
+
 } // namespace
 
 std::string dump(const Scene& scene) {
@@ -143,6 +163,7 @@ std::string dump(const Scene& scene) {
   for (const Body& body : world.bodies) text += "\nbody " + scene.bodyNames.at(body.id) + ' ' + dump(body);
   for (const Spawner& spawner : world.spawners) text += "\nspawn " + dump(spawner);
   for (const Launch& launch : world.launches) text += "\nlaunch " + dump(launch);
+  for (const TextItem& item : scene.texts) text += "\ntext " + dump(item);
   for (const ContactRule& rule : world.contacts) {
     text +=
         fmt::format("\ncollide {} {} {} {} {} {}", rule.groupA, rule.groupB, static_cast<int>(rule.response),
