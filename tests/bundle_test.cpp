@@ -100,7 +100,7 @@ TEST(BundlePage, EscapesEveryText) {
   const std::string page = bundlePage(contents);
   EXPECT_THAT(page, HasSubstr("<title>a &quot;b&quot; &lt;i&gt;&amp;</title>"));
   EXPECT_THAT(page, HasSubstr("<source src=\"50%25%20%C3%A4.mp4\""));
-  EXPECT_THAT(page, HasSubstr("\"captions\":[[0.000,1.500,\"\\u003c/script>\\u003cb>\\n\\\"x\\\"\"]]"));
+  EXPECT_THAT(page, HasSubstr("\"captions\":[[0.000,1.500,\"\\u003c/script>\\u003cb>\\u000a\\\"x\\\"\"]]"));
   EXPECT_THAT(page, Not(HasSubstr("{{")));
 }
 

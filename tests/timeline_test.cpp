@@ -150,8 +150,9 @@ TEST(Timeline, AStillIsTheVideosFrameAndFromCutsInVideoTime) {
 TEST(Timeline, TextsComeAndGoByTheVideosTimeWhileThePictureStands) {
   const TempDir dir;
   const std::string scene =
-      dir.write("scene.toml", std::string(kWorld) + "[[pause]]\nat = 0\nfor = 1\n[[text]]\ntext = \"t = {t:.1f}\"\n"
-                                                    "place = \"center\"\nsize = 20\nfrom = 0.2\nto = 0.4\n")
+      dir.write("scene.toml", std::string(kWorld) +
+                                  "[[pause]]\nat = 0\nfor = 1\n[[text]]\ntext = \"t = {t:.1f}\"\n"
+                                  "place = \"center\"\nsize = 20\nfrom = 0.2\nto = 0.4\n")
           .string();
   std::filesystem::create_directory(dir / "f");
   ASSERT_EQ(offstage({"render", scene, "-o", (dir / "f/%02d.png").string(), "--to", "0.5"}).status, 0);
@@ -167,7 +168,8 @@ TEST(Timeline, ATitleCardHidesTheScene) {
   const auto card = [&](const std::string& color) {
     std::string text = kWorld;
     text.replace(text.find("radius = 8"), 10, "radius = 8\nfill = \"" + color + "\"");
-    const std::string scene = dir.write("scene.toml", text + "[[section]]\ntitle = \"A\"\nstart = 0\ncard = 1\n").string();
+    const std::string scene =
+        dir.write("scene.toml", text + "[[section]]\ntitle = \"A\"\nstart = 0\ncard = 1\n").string();
     const std::string out = (dir / "card.png").string();
     EXPECT_EQ(offstage({"still", scene, "--at", "0.5", "-o", out}).status, 0);
     return readFile(out);

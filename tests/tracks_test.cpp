@@ -148,9 +148,11 @@ TEST(Tracks, ManyHugeAndTinyCaptionsAreHeld) {
   const TempDir dir;
   std::string text = "duration = 1\n[frame]\nsize = [32, 32]\n";
   const auto add = [&text](const std::string& words, double from, double to) {
-    text += "[[caption]]\ntext = \"" + words + "\"\nfrom = " + std::to_string(from) + "\nto = " + std::to_string(to) + "\n";
+    text += "[[caption]]\ntext = \"" + words + "\"\nfrom = " + std::to_string(from) +
+            "\nto = " + std::to_string(to) + "\n";
   };
-  for (int i = 0; i < 40; ++i) add(std::string(1999, static_cast<char>('a' + i % 26)), 0.0, 1.0); // 80 kB at once
+  for (int i = 0; i < 40; ++i)
+    add(std::string(1999, static_cast<char>('a' + i % 26)), 0.0, 1.0); // 80 kB at once
   for (int i = 0; i < 300; ++i) add("tiny", 0.2 + i * 0.000999, 0.2 + i * 0.000999 + 0.0009996);
   const std::string scene = dir.write("scene.toml", text).string();
   for (const char* name : {"x.mp4", "x.mkv"}) {

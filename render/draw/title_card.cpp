@@ -11,8 +11,8 @@ namespace {
 constexpr double kTitleSize = 1.0 / 10.0;
 constexpr double kSubtitleSize = 1.0 / 20.0;
 constexpr double kSubtitleBelow = 1.0 / 9.0; ///< the distance between the middles of the two lines
-constexpr double kMargin = 0.08;              ///< of the pane's width, on either side
-constexpr double kLeastSize = 4.0;            ///< px
+constexpr double kMargin = 0.08;             ///< of the pane's width, on either side
+constexpr double kLeastSize = 4.0;           ///< px
 
 TextLook lookOf(Typeface typeface, double size, const Color& color) {
   TextLook look;
@@ -53,7 +53,8 @@ TextLook TitleCard::fitted(std::string_view text, TextLook look) const {
   return look;
 }
 
-void TitleCard::draw(Picture& picture, std::string_view title, std::string_view subtitle, double share) const {
+void TitleCard::draw(Picture& picture, std::string_view title, std::string_view subtitle,
+                     double share) const {
   Primitive ground;
   ground.kind = Primitive::Kind::Box;
   ground.color = {background_.red, background_.green, background_.blue, background_.alphaByte(share)};
@@ -62,7 +63,8 @@ void TitleCard::draw(Picture& picture, std::string_view title, std::string_view 
   picture.primitives.push_back(ground);
   const Vec2 middle = pane_ * 0.5;
   const Vec2 down(0.0, 0.5 * kSubtitleBelow * pane_.y());
-  painter_.draw(picture, title, fitted(title, titleLook_), subtitle.empty() ? middle : Vec2(middle - down), share);
+  painter_.draw(picture, title, fitted(title, titleLook_), subtitle.empty() ? middle : Vec2(middle - down),
+                share);
   if (!subtitle.empty())
     painter_.draw(picture, subtitle, fitted(subtitle, subtitleLook_), middle + down, share);
 }

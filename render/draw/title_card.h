@@ -7,11 +7,12 @@
 
 namespace offstage {
 
-/// A section's title card: its title, and perhaps a second line, in the middle of the pane, over the theme's background.
+/// A section's title card: its title, and perhaps a second line, in the middle of the pane, over the theme's
+/// background.
 class TitleCard {
 public:
-  /// Holds every card of the scene against its font. Throws SceneError, located at the section, for a text that cannot be
-  /// set, or Error(Environment) when the font is missing.
+  /// Holds every card of the scene against its font. Throws SceneError, located at the section, for a text
+  /// that cannot be set, or Error(Environment) when the font is missing.
   TitleCard(const Scene& scene, const Viewport& viewport);
 
   /// `share` (0 … 1): how much of the card is there.

@@ -116,7 +116,9 @@ void addProgressOption(CLI::App& app, RenderOptions& options) {
 
 void addReportOptions(CLI::App& app, RenderOptions& options) {
   addProgressOption(app, options);
-  app.add_option("--hash", options.hashFile, "write a line a frame of the output: the simulated frame that it shows, its state hash, the pixel hash")
+  app.add_option("--hash", options.hashFile,
+                 "write a line a frame of the output: the simulated frame that it shows, its state hash, the "
+                 "pixel hash")
       ->type_name("FILE");
 }
 

@@ -23,8 +23,8 @@ std::string webVttText(std::string_view text);
 bool isOwnWebVtt(std::string_view bytes);
 
 /// The same captions one after another, for a track that shows one at a time: where some overlap, a cue holds
-/// the lines of all, in their order; where none is shown, a cue without text. A text is cut to the 65535 bytes that such a track can hold, behind a whole character. Covers 0 … `end` (ns) without a
-/// gap.
+/// the lines of all, in their order; where none is shown, a cue without text. A text is cut to the 65535
+/// bytes that such a track can hold, behind a whole character. Covers 0 … `end` (ns) without a gap.
 std::vector<Cue> withoutOverlaps(std::span<const Cue> cues, std::int64_t end);
 
 } // namespace offstage

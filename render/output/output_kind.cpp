@@ -62,7 +62,8 @@ OutputKind outputKind(const std::filesystem::path& out) {
 }
 
 bool holdsSound(OutputKind kind) {
-  return kind == OutputKind::Mp4 || kind == OutputKind::Mov || kind == OutputKind::Matroska || kind == OutputKind::WebM;
+  return kind == OutputKind::Mp4 || kind == OutputKind::Mov || kind == OutputKind::Matroska ||
+         kind == OutputKind::WebM;
 }
 
 bool isStream(OutputKind kind) {

@@ -165,8 +165,8 @@ SoundMix::SoundMix(std::vector<PlacedSound> voices, std::vector<Click> clicks, s
 void SoundMix::level() {
   levelled_ = true;
   if (!unlimited_->hasVoices()) return;
-  // The limiter takes a little off what is loud, so its result is measured again. Hundredths of a decibel make
-  // the gain the same on every machine, whatever the last bit of the measurement.
+  // The limiter takes a little off what is loud, so its result is measured again. Hundredths of a decibel
+  // make the gain the same on every machine, whatever the last bit of the measurement.
   unlimited_->setClicks(false);
   double loudness = loudnessOf(*unlimited_);
   for (int pass = 0; pass < kMostPasses && std::isfinite(loudness); ++pass) {

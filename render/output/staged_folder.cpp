@@ -85,8 +85,9 @@ void StagedFolder::requireReplaceable() const {
 }
 
 void StagedFolder::commit() {
+  const std::string files = listOf(temporary_);
   AtomicFile list(temporary_ / kList);
-  list.write(listOf(temporary_));
+  list.write(files);
   list.commit();
   requireReplaceable(); // it may have changed meanwhile
   std::error_code ignored;

@@ -22,14 +22,17 @@ std::int64_t framesOf(double seconds, double fps) {
   return std::max<std::int64_t>(std::llround(seconds * fps), 1);
 }
 
-/// A scene's title as a chapter's: no longer than one may be, in whole characters, and without control characters.
+/// A scene's title as a chapter's: no longer than one may be, in whole characters, and without control
+/// characters.
 std::string chapterTitle(std::string title) {
   if (title.size() > kMaxSectionBytes) {
     std::size_t length = kMaxSectionBytes;
-    while ((static_cast<unsigned char>(title[length]) & 0xc0U) == 0x80U) --length; // a character's later bytes
+    while ((static_cast<unsigned char>(title[length]) & 0xc0U) == 0x80U)
+      --length; // a character's later bytes
     title.resize(length);
   }
-  std::ranges::replace_if(title, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+  std::ranges::replace_if(
+      title, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
   return title;
 }
 

@@ -70,12 +70,11 @@ void readTimes(SceneBuilder& builder, const TableReader& reader, Caption& captio
   const Range time = Range::between(0.0, kMaxDuration);
   const auto from = reader.givenNumber("from", time);
   const auto to = reader.givenNumber("to", time);
-  const auto length = reader.givenNumber("for", Range::aboveUpTo(0.0, kMaxDuration));
+  const double length = reader.number("for", Range::aboveUpTo(0.0, kMaxDuration));
   if (!reader.has("from")) reader.require("from");
   reader.rejectBoth("for", "to");
-  if (!reader.has("to") && !reader.has("for")) reader.require("to");
   caption.from = from.value_or(0.0);
-  caption.to = to ? *to : caption.from + length.value_or(1.0);
+  caption.to = to ? *to : caption.from + length;
   if (from && to && !(*from < *to))
     reader.reject("to", fmt::format("is {} s, not after 'from', {} s", numberText(*to), numberText(*from)));
   caption.section = readSectionName(builder, reader);

@@ -218,7 +218,7 @@ constexpr SceneKey kKeys[] = {
 
     {"caption", "text", "string", "", "required"},
     {"caption", "from", "number", "s", "required"},
-    {"caption", "to", "number", "s", "required"},
+    {"caption", "to", "number", "s", "none"},
     {"caption", "section", "string", "", "none"},
     {"caption", "on", "choice", "", "none"},
     {"caption", "body", "string", "", "none"},
