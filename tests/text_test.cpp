@@ -235,6 +235,17 @@ TEST(Text, OfAReplayKnowsItsGroupsButNoForces) {
   EXPECT_THAT(problemOf([&] { sceneWith("{energy}"); }), HasSubstr("a replayed trace has no forces"));
 }
 
+TEST(Text, ACharacterThatTheFontLacksIsLocatedInTheScene) {
+  const auto problem = [](const std::string& text) {
+    return problemOf([&] { pictureOf("[[text]]\nplace = \"top\"\ntext = \"" + text + "\"\n"); });
+  };
+  EXPECT_EQ(problem("x 漢"),
+            "2: scene.toml:3:8: error: 'text' in [[text]]: the font has no glyph for \"漢\" (U+6F22), "
+            "line 1, character 3");
+  EXPECT_EQ(problem("{t} 漢"),
+            "2: scene.toml:3:8: error: 'text' in [[text]]: the font has no glyph for \"漢\" (U+6F22)");
+}
+
 TEST(Text, OfALargerScaleIsSetAtItsOwnSize) {
   const std::string scene = "[[text]]\ntext = \"m\"\nat = [320, 240]\nsize = 20\n";
   const Picture once = pictureOf(scene);

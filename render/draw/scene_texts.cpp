@@ -48,8 +48,9 @@ SceneTexts::SceneTexts(const Scene& scene, const Viewport& viewport)
         const double size = item.look.size * viewport.scale;
         item.mask = std::make_shared<const Mask>(typeset(item.formula, size, cache));
       } else {
-        painter_.require(item.look, charactersOf(item.text));
-        if (item.text.live()) painter_.require(item.look, kNumberCharacters);
+        const bool live = item.text.live();
+        painter_.require(item.look, charactersOf(item.text), !live);
+        if (live) painter_.require(item.look, kNumberCharacters, false);
       }
       items_.push_back(std::move(item));
     } catch (const SceneError& error) {

@@ -29,7 +29,7 @@ std::uint64_t fingerprintOf(const Scene& scene) {
 
 } // namespace
 
-SceneSource::SceneSource(const Scene& scene, Viewport viewport)
+SceneSource::SceneSource(const Scene& scene, const Viewport& viewport)
     : clock_(scene.clock),
       title_(scene.title),
       motion_(motionOf(scene)),

@@ -16,7 +16,7 @@ namespace offstage {
 class SceneSource : public Source {
 public:
   /// Decodes the scene's images. Throws SceneError or Error for what parsing could not know.
-  SceneSource(const Scene& scene, Viewport viewport);
+  SceneSource(const Scene& scene, const Viewport& viewport);
 
   [[nodiscard]] const Clock& clock() const override { return clock_; }
   [[nodiscard]] const std::string& title() const override { return title_; }

@@ -1,4 +1,4 @@
-#include "src/scene/scene_builder.h"
+#include "src/scene/parse_text.h"
 
 #include <fmt/core.h>
 
@@ -30,14 +30,10 @@ void parseTheme(SceneBuilder& builder, const TomlValue& table) {
   const TableReader reader(table, {"theme"}, "[theme]", builder.errors);
   Theme& theme = builder.scene.theme;
   theme = themeOf(reader.choice("name", kNames));
-  const auto read = [&](std::string_view key, Color& color) {
-    if (const TomlValue* value = reader.find(key))
-      color = readColor(*value, reader.described(key), builder.errors).value_or(color);
-  };
-  read("background", theme.background);
-  read("text", theme.text);
-  read("muted", theme.muted);
-  read("grid", theme.grid);
+  theme.background = readGivenColor(reader, "background").value_or(theme.background);
+  theme.text = readGivenColor(reader, "text").value_or(theme.text);
+  theme.muted = readGivenColor(reader, "muted").value_or(theme.muted);
+  theme.grid = readGivenColor(reader, "grid").value_or(theme.grid);
   readPalette(reader, theme.palette);
   if (reader.has("palette")) theme.bodies = true;
 }
