@@ -110,6 +110,11 @@ public:
       : random_(seed),
         picture_(blankPicture(width, height, background)),
         image_(colorfulImage(17, 11, false)) {
+    for (const auto& [across, down] : {std::pair(9, 13), std::pair(40, 31), std::pair(1, 70)}) {
+      Mask mask{across, down, {}};
+      for (int k = 0; k < across * down; ++k) mask.coverage.push_back(static_cast<std::uint8_t>(below(256)));
+      picture_.masks.push_back(std::make_shared<const Mask>(std::move(mask)));
+    }
     for (int i = 0; i < 12; ++i) picture_.primitives.push_back(any());
   }
 
@@ -141,7 +146,13 @@ private:
   Primitive any() {
     const Vec2 at = place();
     const double size = std::exp(uniform(std::log(0.3), std::log(120.0)));
-    switch (below(4)) {
+    switch (below(5)) {
+    case 2: {
+      Primitive primitive = box(at.x(), at.y(), 0.0, 0.0, color());
+      primitive.kind = Primitive::Kind::Mask;
+      putMask(primitive);
+      return primitive;
+    }
     case 0:
       return ring(at.x(), at.y(), size * uniform(0.0, 1.0), size, color());
     case 1: {
@@ -166,6 +177,14 @@ private:
     }
   }
 
+  /// Another mask, at whole pixels.
+  void putMask(Primitive& primitive) {
+    primitive.mask = static_cast<std::int32_t>(below(picture_.masks.size()));
+    const Mask& mask = *picture_.masks[static_cast<std::size_t>(primitive.mask)];
+    primitive.low = primitive.low.array().round();
+    primitive.high = primitive.low + Vec2(mask.width, mask.height);
+  }
+
   void change(Primitive& primitive) {
     if (chance(0.1)) primitive.color = color();
     if (chance(0.1)) primitive.outer *= uniform(0.9, 1.1);
@@ -175,6 +194,7 @@ private:
     primitive.center += moved;
     for (Vec2* corner : {&primitive.low, &primitive.high, &primitive.innerLow, &primitive.innerHigh})
       *corner += moved;
+    if (primitive.kind == Primitive::Kind::Mask) putMask(primitive);
   }
 
   std::mt19937 random_;

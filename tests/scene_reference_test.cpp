@@ -162,6 +162,7 @@ Entries with(const std::string& table, const std::string& key, const std::string
   if (table == "caption" && key == "for") drop({"to"});
   if (table == "pause" && (key == "style" || key == "color")) set(entries, "highlight", "[\"b\"]");
   if (table == "text" && key == "at") drop({"place"});
+  if (table == "text" && key == "formula") drop({"text"});
   if (table == "text" && key == "padding") set(entries, "background", "\"red\"");
   if (table == "text" && key == "outline_width") set(entries, "outline", "\"red\"");
   if (table == "stroke" && (key == "anchor" || key == "proportional")) set(entries, "image", "\"image.png\"");
@@ -229,6 +230,7 @@ std::string valueOf(const DocumentedKey& key) {
   };
   if (key.type == "boolean") return key.defaultText == "true" ? "false" : "true";
   if (key.key == "leaving") return key.defaultText == "\"keep\"" ? "\"remove\"" : "\"keep\"";
+  if (key.table == "theme" && key.key == "name") return "\"dark\"";
   if (key.table == "text" && key.key == "align") return "\"right\"";
   if (key.table == "text" && key.key == "size") return "20.5";
   if (key.type == "choice") return '"' + words.at(key.key) + '"';

@@ -85,6 +85,30 @@ TEST(TextLayout, LettersAreKernedAndLinesBroken) {
   EXPECT_EQ(layOut(*font, "").lines.size(), 1U);
 }
 
+TEST(GposKerning, SaysOfEveryPairWhatTheOlderTableSays) {
+  // DejaVu Sans has both tables, so each is held against the other.
+  const std::string file = readFile(typefaceFile(Typeface::Sans));
+  std::string withoutGpos = file;
+  const std::size_t record = withoutGpos.find("GPOS");
+  ASSERT_LT(record, 400U);
+  withoutGpos.replace(record, 4, "GPOx");
+  const auto fontOf = [](const std::string& bytes) {
+    return std::make_unique<Font>(std::vector<std::uint8_t>(bytes.begin(), bytes.end()));
+  };
+  const auto modern = fontOf(file);
+  const auto older = fontOf(withoutGpos);
+  int kerned = 0;
+  for (char32_t a = U'!'; a <= U'~'; ++a) {
+    for (char32_t b = U'!'; b <= U'~'; ++b) {
+      const int expected = older->kerning(older->glyph(a), older->glyph(b));
+      EXPECT_EQ(modern->kerning(modern->glyph(a), modern->glyph(b)), expected)
+          << static_cast<char>(a) << static_cast<char>(b);
+      kerned += expected != 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(kerned, 100);
+}
+
 TEST(TextLayout, AMissingGlyphIsNamedWithItsPlace) {
   const auto font = sans();
   EXPECT_EQ(problemOf([&] { layOut(*font, "ok\nx漢"); }),
@@ -192,6 +216,34 @@ TEST(Text, LeavesTheStateHashAsItIs) {
     one.step();
     two.step();
   }
+}
+
+TEST(Text, OfAReplayKnowsItsGroupsButNoForces) {
+  const TempDir dir;
+  dir.write(
+      "t.csv",
+      "frame,time,id,x,y,radius,group\n0,0,3,100,50,2,rain\n1,0.5,3,100,60,2,rain\n1,0.5,4,9,9,2,rain\n");
+  const auto sceneWith = [&](const std::string& text) {
+    return parseScene("[replay]\ntrace = \"t.csv\"\n[[text]]\nplace = \"top\"\ntext = \"" + text + "\"\n",
+                      dir / "s.toml");
+  };
+  const Scene scene = sceneWith("{rain.count} {#3.y} {t}");
+  SceneSource source(scene, Viewport::scaled(640, 480, 1.0));
+  EXPECT_EQ(scene.texts.at(0).text.text(source.snapshot()), "1 50 0");
+  source.step();
+  EXPECT_EQ(scene.texts.at(0).text.text(source.snapshot()), "2 60 0.5");
+  EXPECT_THAT(problemOf([&] { sceneWith("{energy}"); }), HasSubstr("a replayed trace has no forces"));
+}
+
+TEST(Text, ACharacterThatTheFontLacksIsLocatedInTheScene) {
+  const auto problem = [](const std::string& text) {
+    return problemOf([&] { pictureOf("[[text]]\nplace = \"top\"\ntext = \"" + text + "\"\n"); });
+  };
+  EXPECT_EQ(problem("x 漢"),
+            "2: scene.toml:3:8: error: 'text' in [[text]]: the font has no glyph for \"漢\" (U+6F22), "
+            "line 1, character 3");
+  EXPECT_EQ(problem("{t} 漢"),
+            "2: scene.toml:3:8: error: 'text' in [[text]]: the font has no glyph for \"漢\" (U+6F22)");
 }
 
 TEST(Text, OfALargerScaleIsSetAtItsOwnSize) {

@@ -1,17 +1,22 @@
 #include "render/draw/font.h"
 
+#include "render/draw/gpos_kerning.h"
 #include "src/sim/error.h"
 
 #include <algorithm>
 #include <ft2build.h>
 #include <stdexcept>
+#include FT_ADVANCES_H
 #include FT_FREETYPE_H
 #include FT_OUTLINE_H
+#include FT_TRUETYPE_TABLES_H
 
 #include <fmt/format.h>
 
 namespace offstage {
 namespace {
+
+constexpr FT_ULong kGpos = 0x47504f53U; // "GPOS"
 
 /// The first four bytes of what is read: TrueType, OpenType with CFF outlines, Apple's TrueType, a
 /// collection.
@@ -61,6 +66,7 @@ struct Font::Face {
   std::vector<std::uint8_t> bytes; ///< FreeType reads from them as long as the face lives
   FT_Library library = nullptr;
   FT_Face face = nullptr;
+  GposKerning kerning;
 
   explicit Face(std::vector<std::uint8_t> file) : bytes(std::move(file)) {}
   Face(const Face&) = delete;
@@ -91,6 +97,13 @@ Font::Font(std::vector<std::uint8_t> bytes) : face_(std::make_unique<Face>(std::
     throw std::runtime_error("is a font without a table of Unicode characters");
   if (face_->face->units_per_EM == 0 || ascent() + descent() <= 0)
     throw std::runtime_error("is a damaged font (its letters have no height)");
+
+  FT_ULong length = 0;
+  if (FT_Load_Sfnt_Table(face_->face, kGpos, 0, nullptr, &length) != 0 || length > face_->bytes.size())
+    return;
+  std::vector<std::uint8_t> gpos(length);
+  if (FT_Load_Sfnt_Table(face_->face, kGpos, 0, gpos.data(), &length) == 0)
+    face_->kerning = GposKerning(std::move(gpos));
 }
 
 Font::~Font() = default;
@@ -112,11 +125,15 @@ int Font::descent() const {
 }
 
 int Font::advance(std::uint32_t glyph) const {
-  face_->load(glyph);
-  return static_cast<int>(face_->face->glyph->metrics.horiAdvance);
+  FT_Fixed advance = 0;
+  if (FT_Get_Advance(face_->face, glyph, FT_LOAD_NO_SCALE, &advance) != 0)
+    throw Error(ExitCode::BadInput,
+                fmt::format("a font is damaged: the width of its glyph {} is broken", glyph));
+  return static_cast<int>(advance);
 }
 
 int Font::kerning(std::uint32_t left, std::uint32_t right) const {
+  if (!face_->kerning.empty()) return face_->kerning.between(left, right);
   FT_Vector kerning{};
   if (!FT_HAS_KERNING(face_->face) ||
       FT_Get_Kerning(face_->face, left, right, FT_KERNING_UNSCALED, &kerning) != 0)

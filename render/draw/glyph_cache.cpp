@@ -13,7 +13,7 @@
 namespace offstage {
 namespace {
 
-constexpr double kLargestMask = 8192.0; ///< px a side: no sound glyph of the largest text needs more
+constexpr double kLargestMask = 8192.0; ///< px a side; keeps a damaged font from taking the memory
 
 struct Box {
   double left = std::numeric_limits<double>::infinity();
@@ -47,9 +47,11 @@ GlyphMask rasterize(const GlyphKey& key, const GlyphOutline& outline) {
   const Vec2 corner(std::floor(box.left) - margin, std::floor(box.top) - margin);
   const Vec2 size(std::ceil(box.right) + margin - corner.x(), std::ceil(box.bottom) + margin - corner.y());
   if (!(size.maxCoeff() <= kLargestMask && corner.cwiseAbs().maxCoeff() <= kLargestMask))
-    throw Error(ExitCode::BadInput,
-                fmt::format("a font is damaged: its glyph {} is {:.0f}x{:.0f} px large in a text of {} px",
-                            key.glyph, size.x(), size.y(), key.size));
+    throw Error(
+        ExitCode::BadInput,
+        fmt::format("a letter of {:.0f}x{:.0f} px cannot be drawn, {:.0f} px a side are the most: the text "
+                    "is too large, or its font is damaged",
+                    size.x(), size.y(), kLargestMask));
   for (Polygon& polygon : polygons) {
     for (Vec2& point : polygon) point -= corner;
   }

@@ -41,7 +41,7 @@ void appendCurve(const Vec2& from, const GlyphOutline::Segment& curve, const Vec
 }
 
 std::uint8_t toByte(double share) {
-  return static_cast<std::uint8_t>(std::clamp(share, 0.0, 1.0) * 255.0 + 0.5);
+  return static_cast<std::uint8_t>(std::lround(std::clamp(share, 0.0, 1.0) * 255.0));
 }
 
 /// What edges leave in the pixels.

@@ -1,5 +1,6 @@
 #include "render/draw/scene_texts.h"
 
+#include "render/draw/formula.h"
 #include "src/sim/birth.h"
 #include "src/sim/force_field.h"
 
@@ -44,28 +45,42 @@ std::optional<Vec2> anchorPoint(const TextItem& item, const Vec2& pane, const Sn
 } // namespace
 
 SceneTexts::SceneTexts(const Scene& scene, const Viewport& viewport)
-    : items_(scene.texts), pane_(scene.size[0], scene.size[1]), home_(viewport), painter_(viewport) {
+    : pane_(scene.size[0], scene.size[1]), home_(viewport), painter_(viewport) {
   std::vector<Diagnostic> problems;
-  for (const TextItem& item : items_) {
+  const FormulaCache cache;
+  for (const TextItem& text : scene.texts) {
+    Item item{text, nullptr};
     try {
-      painter_.require(item.look, charactersOf(item.text));
-      if (item.text.live()) painter_.require(item.look, kNumberCharacters);
+      if (!item.formula.empty()) {
+        const double size = item.look.size * viewport.scale;
+        item.mask = std::make_shared<const Mask>(typeset(item.formula, size, cache));
+      } else {
+        const bool live = item.text.live();
+        painter_.require(item.look, charactersOf(item.text), !live);
+        if (live) painter_.require(item.look, kNumberCharacters, false);
+      }
+      items_.push_back(std::move(item));
     } catch (const SceneError& error) {
       problems.insert(problems.end(), error.diagnostics().begin(), error.diagnostics().end());
     } catch (const Error& error) {
       if (error.code() != ExitCode::BadInput) throw;
-      problems.push_back({item.where, fmt::format("'text' in [[text]]: {}", error.what())});
+      problems.push_back({text.where, fmt::format("'{}' in [[text]]: {}",
+                                                  text.formula.empty() ? "text" : "formula", error.what())});
     }
   }
   if (!problems.empty()) throw SceneError(std::move(problems));
 }
 
 void SceneTexts::draw(Picture& picture, const Snapshot& snapshot, double time, const Viewport& camera) const {
-  for (const TextItem& item : items_) {
+  for (const Item& item : items_) {
     const double share = shownShare(item, time);
     if (!(share > 0.0)) continue;
     const std::optional<Vec2> at = anchorPoint(item, pane_, snapshot, home_, camera);
     if (!at) continue;
+    if (item.mask != nullptr) {
+      painter_.draw(picture, item.mask, item.look, *at, share);
+      continue;
+    }
     painter_.draw(picture, item.text.text(snapshot), item.look, *at, share, item.at.body.has_value());
   }
 }

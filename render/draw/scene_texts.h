@@ -4,6 +4,7 @@
 #include "src/scene/scene.h"
 #include "src/sim/probe.h"
 
+#include <memory>
 #include <vector>
 
 namespace offstage {
@@ -11,8 +12,8 @@ namespace offstage {
 /// The texts of a scene, ready to be drawn in any of its frames.
 class SceneTexts {
 public:
-  /// Reads the fonts and holds every text against its font. Throws SceneError with all texts that cannot be
-  /// set, or Error(Environment) when a package is missing.
+  /// Reads the fonts, holds every text against its font and typesets the formulas. Throws SceneError with all
+  /// texts that cannot be set, or Error(Environment) when a package is missing.
   SceneTexts(const Scene& scene, const Viewport& viewport);
 
   /// `time` (s of the video) is what texts appear and go by. A text that belongs to a body stands where
@@ -22,7 +23,10 @@ public:
   [[nodiscard]] bool empty() const { return items_.empty(); }
 
 private:
-  std::vector<TextItem> items_;
+  struct Item : TextItem {
+    std::shared_ptr<const Mask> mask; ///< of a formula
+  };
+  std::vector<Item> items_;
   Vec2 pane_; ///< px
   Viewport home_;
   TextPainter painter_;

@@ -23,18 +23,19 @@ struct Place {
   int character = 1;
 };
 
-[[noreturn]] void fail(char32_t character, const Place& place, std::string_view problem) {
-  throw Error(ExitCode::BadInput,
-              fmt::format("{} {} (U+{:04X}), line {}, character {}", problem,
-                          quotedText(encodeUtf8(character)), static_cast<std::uint32_t>(character),
-                          place.line, place.character));
+[[noreturn]] void fail(char32_t character, const Place* place, std::string_view problem) {
+  std::string message = fmt::format("{} {} (U+{:04X})", problem, quotedText(encodeUtf8(character)),
+                                    static_cast<std::uint32_t>(character));
+  if (place != nullptr) message += fmt::format(", line {}, character {}", place->line, place->character);
+  throw Error(ExitCode::BadInput, message);
 }
 
 /// Calls `visit(glyph)` for every character and `visit(0)` at the end of every line but the last.
 template <typename Visit>
-void visitGlyphs(const Font& font, std::string_view text, Visit visit) {
+void visitGlyphs(const Font& font, std::string_view text, bool whole, Visit visit) {
   const std::u32string characters = decodeUtf8(text);
   Place place;
+  const Place* const shown = whole ? &place : nullptr;
   for (std::size_t i = 0; i < characters.size(); ++i) {
     const char32_t c = characters[i];
     if (c == U'\r' && i + 1 < characters.size() && characters[i + 1] == U'\n') continue;
@@ -43,9 +44,9 @@ void visitGlyphs(const Font& font, std::string_view text, Visit visit) {
       place = {place.line + 1, 1};
       continue;
     }
-    if (isRightToLeft(c)) fail(c, place, "text is set from left to right only, and cannot show");
+    if (isRightToLeft(c)) fail(c, shown, "text is set from left to right only, and cannot show");
     const std::uint32_t glyph = font.glyph(c);
-    if (glyph == 0) fail(c, place, "the font has no glyph for");
+    if (glyph == 0) fail(c, shown, "the font has no glyph for");
     visit(glyph);
     ++place.character;
   }
@@ -57,7 +58,7 @@ TextLayout layOut(const Font& font, std::string_view text) {
   TextLayout layout;
   layout.lines.emplace_back();
   std::uint32_t left = 0;
-  visitGlyphs(font, text, [&](std::uint32_t glyph) {
+  visitGlyphs(font, text, true, [&](std::uint32_t glyph) {
     if (glyph == 0) {
       layout.lines.emplace_back();
       left = 0;
@@ -73,8 +74,8 @@ TextLayout layOut(const Font& font, std::string_view text) {
   return layout;
 }
 
-void requireGlyphs(const Font& font, std::string_view text) {
-  visitGlyphs(font, text, [](std::uint32_t) {});
+void requireGlyphs(const Font& font, std::string_view text, bool whole) {
+  visitGlyphs(font, text, whole, [](std::uint32_t) {});
 }
 
 } // namespace offstage

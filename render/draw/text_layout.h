@@ -28,7 +28,8 @@ struct TextLayout {
 /// does not set), naming it and its place.
 TextLayout layOut(const Font& font, std::string_view text);
 
-/// Throws as layOut() does, unless the font has a glyph for every character.
-void requireGlyphs(const Font& font, std::string_view text);
+/// Throws as layOut() does, unless the font has a glyph for every character. `whole`: the text is all there
+/// is, so that the error names the character's place in it, too.
+void requireGlyphs(const Font& font, std::string_view text, bool whole = true);
 
 } // namespace offstage

@@ -57,8 +57,8 @@ TextPainter::Block TextPainter::set(std::string_view text, const TextLook& look)
   return block;
 }
 
-void TextPainter::require(const TextLook& look, std::string_view text) const {
-  requireGlyphs(*store_->fonts.get(look.font), text);
+void TextPainter::require(const TextLook& look, std::string_view text, bool whole) const {
+  requireGlyphs(*store_->fonts.get(look.font), text, whole);
 }
 
 Vec2 TextPainter::measure(std::string_view text, const TextLook& look) const {

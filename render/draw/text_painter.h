@@ -19,7 +19,7 @@ public:
 
   /// Reads the look's font, unless it is known, and holds it against a text. Throws as FontLibrary::get() and
   /// requireGlyphs() do.
-  void require(const TextLook& look, std::string_view text) const;
+  void require(const TextLook& look, std::string_view text, bool whole = true) const;
 
   /// Draws a text so that its look's anchor is at `at` (px): background, then outlines, then letters. `share`
   /// (0 … 1) multiplies the opacity. Baselines stand on whole output pixels unless `smooth`, which is for

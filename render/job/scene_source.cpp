@@ -64,7 +64,7 @@ double presence(double time, double from, double to, double fade) {
 
 } // namespace
 
-SceneSource::SceneSource(const Scene& scene, Viewport viewport)
+SceneSource::SceneSource(const Scene& scene, const Viewport& viewport)
     : clock_(scene.clock),
       title_(scene.title),
       motion_(motionOf(scene)),

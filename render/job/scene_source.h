@@ -22,7 +22,7 @@ class SceneSource : public Source {
 public:
   /// Decodes the scene's images and measures its sound files. Throws SceneError or Error for what parsing
   /// could not know.
-  SceneSource(const Scene& scene, Viewport viewport);
+  SceneSource(const Scene& scene, const Viewport& viewport);
 
   [[nodiscard]] const Clock& clock() const override { return clock_; }
   [[nodiscard]] const std::string& title() const override { return title_; }

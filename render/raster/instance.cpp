@@ -141,9 +141,7 @@ std::optional<Drawable> makeDrawable(const Primitive& primitive, const PixelRect
   } else {
     setBox(primitive, bounds, drawable);
   }
-  // Beyond its bounds a mask has no texels, so they are not made square.
-  drawable.footprint =
-      primitive.kind == Kind::Mask ? Footprint::Quad : chooseFootprint(bounds, clip, largestPoint);
+  drawable.footprint = chooseFootprint(bounds, clip, largestPoint);
   Instance& instance = drawable.instance;
   instance.quad = {static_cast<std::uint16_t>(bounds.left), static_cast<std::uint16_t>(bounds.top),
                    static_cast<std::uint16_t>(bounds.right), static_cast<std::uint16_t>(bounds.bottom)};

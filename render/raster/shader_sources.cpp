@@ -189,11 +189,13 @@ float insideBox(vec2 p, vec4 edges) {
 }
 )";
 
-/// A pixel of a mask is a texel. p, from the mask's corner, is the middle of a pixel, so its floor is sure.
+/// A pixel of a mask is a texel; beyond the mask, where a whole tile is drawn, there is nothing. p, from the
+/// mask's corner, is the middle of a pixel, so its floor is sure.
 constexpr const char* kMask = R"(
 float insideMask(vec2 p) {
   ivec2 at = ivec2(floor(p));
-  return texelFetch(store, vTexels.x + at.y * vTexels.y + at.x).a;
+  bool inside = at.x >= 0 && at.y >= 0 && at.x < vTexels.y && at.y < vTexels.z;
+  return inside ? texelFetch(store, vTexels.x + at.y * vTexels.y + at.x).a : 0.0;
 }
 )";
 

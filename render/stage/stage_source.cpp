@@ -70,7 +70,9 @@ void StageSource::draw(Picture& picture) const {
   }
   for (const Stage::TextEntry& entry : stage_.texts_) {
     const Text::State& text = *entry.text.state_;
-    if (text.visible) textPainter_.draw(picture, text.text, text.look, text.position, 1.0, true);
+    // One that moves down or up stands between whole pixels most of the time.
+    const bool smooth = text.position.y() != std::floor(text.position.y());
+    if (text.visible) textPainter_.draw(picture, text.text, text.look, text.position, 1.0, smooth);
   }
 }
 

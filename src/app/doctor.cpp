@@ -1,4 +1,5 @@
 #include "render/draw/font_library.h"
+#include "render/draw/formula.h"
 #include "render/output/codecs.h"
 #include "render/raster/canvas.h"
 #include "src/app/commands.h"
@@ -65,6 +66,13 @@ bool reportFonts() {
   return all;
 }
 
+/// Only formulas need it, so a machine without it lacks nothing.
+void reportTex() {
+  const std::string programs = texPrograms();
+  line("TeX",
+       programs.empty() ? fmt::format("none; for formulas install {}", kTexPackages) : "ok: " + programs);
+}
+
 std::string limitText(int resource, rlim_t unit, std::string_view unitName) {
   rlimit limit{};
   if (getrlimit(static_cast<__rlimit_resource_t>(resource), &limit) != 0) return "unknown";
@@ -95,6 +103,7 @@ void addDoctor(CLI::App& app, Action& action) {
       const bool gl = reportGl();
       const bool codecs = reportCodecs();
       const bool fonts = reportFonts();
+      reportTex();
       reportLimits();
       return static_cast<int>(gl && codecs && fonts ? ExitCode::Done : ExitCode::Environment);
     };

@@ -60,7 +60,7 @@ void parseBody(SceneBuilder& builder, const TomlValue& table) {
   body.id = static_cast<std::uint32_t>(builder.scene.world.bodies.size());
   readName(builder, reader, body.id);
   const bool shapeKnown = readBodyProperties(builder, reader, body);
-  body.look = readLooks(builder, reader, false).front();
+  body.look = readLooks(builder, reader, body, false).front();
 
   if (shapeKnown) {
     rejectKeysOfOtherShape(reader, body.shape, {"center", "radius"}, {"position", "size"});

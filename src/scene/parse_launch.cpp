@@ -61,7 +61,7 @@ void parseLaunch(SceneBuilder& builder, const TomlValue& table) {
   body.integrator = builder.integrator;
   body.radius = builder.view.length()(reader.number("radius", Range::atLeast(0.0)));
   body.mass = reader.number("mass", Range::above(0.0));
-  body.look = readLooks(builder, reader, false).front();
+  body.look = readLooks(builder, reader, body, false).front();
   builder.requireFinite(table, "[[launch]]",
                         {launch.speed, body.radius, launch.from.point.x(), launch.from.point.y(),
                          launch.toward.point.x(), launch.toward.point.y()});

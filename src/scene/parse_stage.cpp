@@ -35,7 +35,7 @@ void readSize(SceneBuilder& builder, const TableReader& reader) {
 void parseFrame(SceneBuilder& builder, const TomlValue& table) {
   const TableReader reader(table, {"frame"}, "[frame]", builder.errors);
   readSize(builder, reader);
-  builder.scene.background = reader.color("background");
+  if (reader.has("background")) builder.scene.background = reader.color("background");
   builder.scene.scale = reader.number("scale", Range::aboveUpTo(0.0, kMaxScale));
 }
 

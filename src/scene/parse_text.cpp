@@ -71,14 +71,33 @@ void readTimes(const TableReader& reader, TextItem& item) {
   }
 }
 
-/// The key text or formula. True when it is right.
-bool readContent(SceneBuilder& builder, const TableReader& reader, TextItem& item) {
-  const TomlValue* text = reader.find("text");
-  if (text == nullptr) {
-    builder.errors.add(reader.value(), fmt::format("{} needs 'text'", reader.label()));
+/// The key formula. What concerns letters has no effect on it, so it may not stand beside it.
+bool readFormula(const TableReader& reader, TextItem& item) {
+  for (const char* ofLetters : {"font", "align", "line_height", "outline", "outline_width", "upwards"}) {
+    if (reader.has(ofLetters)) reader.reject(ofLetters, "belongs to a 'text', not to a 'formula'");
+  }
+  const auto formula = reader.givenString("formula");
+  if (!formula) return false;
+  if (formula->size() > kMaxTextBytes) {
+    reader.reject("formula", fmt::format("may hold at most {} bytes", kMaxTextBytes));
     return false;
   }
-  item.where = {builder.scene.file.string(), text->line, text->column};
+  item.formula = *formula;
+  return true;
+}
+
+/// The key text or formula. True when it is right.
+bool readContent(SceneBuilder& builder, const TableReader& reader, TextItem& item) {
+  const TomlValue* formula = reader.find("formula");
+  const TomlValue* text = reader.find("text");
+  if (text == nullptr && formula == nullptr) {
+    builder.errors.add(reader.value(), fmt::format("{} needs 'text' or 'formula'", reader.label()));
+    return false;
+  }
+  const TomlValue& content = formula != nullptr ? *formula : *text;
+  item.where = {builder.scene.file.string(), content.line, content.column};
+  if (reader.rejectBoth("formula", "text")) return false;
+  if (formula != nullptr) return readFormula(reader, item);
   auto read = readTemplate(builder, *text, reader.described("text"));
   if (!read) return false;
   item.text = std::move(*read);

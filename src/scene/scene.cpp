@@ -52,6 +52,8 @@ void parseTables(SceneBuilder& builder, const TomlValue& root, const SceneOverri
       top.integer("seed", std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max());
   if (overrides.seed) scene.world.seed = *overrides.seed;
 
+  parseSingle(builder, top, "theme", parseTheme);
+  scene.background = scene.theme.background;
   parseSingle(builder, top, "frame", parseFrame);
   checkScale(builder, top, overrides.scale);
   scene.world.pane = Vec2(scene.size[0], scene.size[1]);

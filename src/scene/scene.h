@@ -35,7 +35,7 @@ struct Scene {
   std::shared_ptr<const Replay> replay; ///< null: the world is simulated; else it is empty
   std::optional<GoldenMoments> golden;  ///< what `offstage golden` keeps of it
   Timeline timeline;                    ///< what it says about its video's time
-  Theme theme;
+  Theme theme = themeOf(ThemeName::None);
   std::vector<TextItem> texts; ///< drawn over the bodies, in this order
 };
 

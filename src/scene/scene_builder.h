@@ -71,6 +71,7 @@ inline Vec2 toVec2(const std::array<double, 2>& pair) {
 }
 
 // One function a table of the format. Each reads the table(s) of its name and reports every error in them.
+void parseTheme(SceneBuilder& builder, const TomlValue& table); ///< before all that has a look
 void parseFrame(SceneBuilder& builder, const TomlValue& table);
 void parseView(SceneBuilder& builder, const TomlValue& table);
 void parseWorld(SceneBuilder& builder, const TomlValue& table);

@@ -9,6 +9,7 @@ constexpr SceneKey kKeys[] = {
     {"", "title", "string", "", "the file's name without its ending"},
     {"", "duration", "number", "s", "10"},
     {"", "seed", "integer", "", "0"},
+    {"", "theme", "table", "", "none"},
     {"", "frame", "table", "", "none"},
     {"", "clock", "table", "", "none"},
     {"", "world", "table", "", "none"},
@@ -31,6 +32,13 @@ constexpr SceneKey kKeys[] = {
     {"", "narration", "table", "", "none"},
     {"", "sound", "table", "", "none"},
     {"", "poster", "table", "", "none"},
+
+    {"theme", "name", "choice", "", "\"light\""},
+    {"theme", "background", "colour", "", "the theme's"},
+    {"theme", "text", "colour", "", "the theme's"},
+    {"theme", "muted", "colour", "", "the theme's"},
+    {"theme", "grid", "colour", "", "the theme's"},
+    {"theme", "palette", "list of colours", "", "the theme's"},
 
     {"frame", "size", "[width, height]", "px", "[640, 480]"},
     {"frame", "background", "colour", "", "\"white\""},
@@ -160,6 +168,7 @@ constexpr SceneKey kKeys[] = {
     {"force.expression", "fy", "expression", "mass·px/s²", "\"0\""},
 
     {"text", "text", "string", "", "required"},
+    {"text", "formula", "string", "", "required"},
     {"text", "at", "[x, y] or name", "px", "required"},
     {"text", "place", "choice", "", "required"},
     {"text", "offset", "[x, y]", "px", "[0, 0]"},

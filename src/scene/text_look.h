@@ -27,7 +27,8 @@ constexpr double acrossOf(NinePosition position) {
   return 0.5 * (static_cast<int>(position) % 3);
 }
 constexpr double downOf(NinePosition position) {
-  return 0.5 * (static_cast<int>(position) / 3);
+  const int row = static_cast<int>(position) / 3;
+  return 0.5 * row;
 }
 
 enum class TextAlign : std::uint8_t { Left, Center, Right };

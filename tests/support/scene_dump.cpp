@@ -143,6 +143,7 @@ std::string dump(const TextItem& item) {
                   look.font.file.string(), dump(Paint(look.color)), look.opacity,
                   static_cast<int>(look.anchor), static_cast<int>(look.align), look.lineHeight,
                   dump(look.background), look.padding, dump(look.outline), look.outlineWidth, look.upwards);
+  text += item.formula;
   for (const TextTemplate::Piece& piece : item.text.pieces)
     text += fmt::format(" {} {}", piece.text, piece.probe ? static_cast<int>(piece.probe->quantity) : -1);
   return text;
@@ -163,6 +164,10 @@ std::string dump(const Scene& scene) {
   for (const Body& body : world.bodies) text += "\nbody " + scene.bodyNames.at(body.id) + ' ' + dump(body);
   for (const Spawner& spawner : world.spawners) text += "\nspawn " + dump(spawner);
   for (const Launch& launch : world.launches) text += "\nlaunch " + dump(launch);
+  text += fmt::format("\ntheme {} {} {} {} {}", scene.theme.bodies, dump(Paint(scene.theme.background)),
+                      dump(Paint(scene.theme.text)), dump(Paint(scene.theme.muted)),
+                      dump(Paint(scene.theme.grid)));
+  for (const Color& color : scene.theme.palette) text += ' ' + dump(Paint(color));
   for (const TextItem& item : scene.texts) text += "\ntext " + dump(item);
   for (const ContactRule& rule : world.contacts) {
     text +=
