@@ -150,6 +150,7 @@ Entries with(const std::string& table, const std::string& key, const std::string
   if (table == "random") drop({"uniform"});
   if (table == "stroke" && (key == "anchor" || key == "proportional")) set(entries, "image", "\"image.png\"");
   if ((table == "fill" || table == "stroke") && key == "proportional") set(entries, "anchor", "[0, 0, 1, 1]");
+  if (table == "world" && key == "iterations") set(entries, "contacts", "\"solver\"");
   if (!key.empty()) set(entries, key, value);
   return entries;
 }
@@ -203,7 +204,7 @@ std::string valueOf(const DocumentedKey& key) {
   // Words and truths other than the default, so that they have an effect.
   static const std::map<std::string, std::string> words = {
       {"integrator", "rk4"},  {"shape", "circle"}, {"align", "inside"},      {"count", "alive"},
-      {"response", "report"}, {"type", "drag"},    {"when", "after-update"},
+      {"response", "report"}, {"type", "drag"},    {"when", "after-update"}, {"contacts", "solver"},
   };
   if (key.type == "boolean") return key.defaultText == "true" ? "false" : "true";
   if (key.key == "leaving") return key.defaultText == "\"keep\"" ? "\"remove\"" : "\"keep\"";

@@ -26,13 +26,16 @@ void readName(SceneBuilder& builder, const TableReader& reader, std::uint32_t id
 
 } // namespace
 
-void readGroupAndLeaving(SceneBuilder& builder, const TableReader& reader, Body& body) {
+void readCommonProperties(SceneBuilder& builder, const TableReader& reader, Body& body) {
   body.group = builder.addGroup(reader.string("group"));
   body.removedOutside = reader.choice("leaving", kLeavings);
+  body.restitution = reader.number("restitution", Range::between(0.0, 1.0));
+  body.continuous = reader.boolean("continuous");
+  body.friction = reader.number("friction", Range::atLeast(0.0));
 }
 
 bool readBodyProperties(SceneBuilder& builder, const TableReader& reader, Body& body) {
-  readGroupAndLeaving(builder, reader, body);
+  readCommonProperties(builder, reader, body);
   body.feelsGravity = reader.boolean("gravity");
   body.fixed = reader.boolean("fixed");
   body.integrator = reader.givenChoice("integrator", kIntegrators).value_or(builder.integrator);

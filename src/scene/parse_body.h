@@ -13,12 +13,13 @@ inline constexpr Choice<Integrator> kIntegrators[] = {
     {"exact", Integrator::Exact},
 };
 
-/// What [[body]] and [[spawn]] share: shape, group, gravity, fixed, integrator, leaving. The look is not
-/// read. Returns whether the shape is known, so that keys can be held against it.
+/// What [[body]] and [[spawn]] share: shape, group, gravity, fixed, integrator, leaving, restitution,
+/// friction, continuous. The look is not read. Returns whether the shape is known, so that keys can be held
+/// against it.
 bool readBodyProperties(SceneBuilder& builder, const TableReader& reader, Body& body);
 
-/// The keys group and leaving, which [[launch]] shares with them.
-void readGroupAndLeaving(SceneBuilder& builder, const TableReader& reader, Body& body);
+/// Those of them that [[launch]] shares: group, leaving, restitution, friction, continuous.
+void readCommonProperties(SceneBuilder& builder, const TableReader& reader, Body& body);
 
 /// Reports each given key that belongs to the other shape.
 void rejectKeysOfOtherShape(const TableReader& reader, Shape shape,

@@ -45,6 +45,7 @@ void parseClock(SceneBuilder& builder, const TomlValue* table, const TableReader
   const Range durationRange = Range::between(0.0, kMaxDuration);
 
   reader.rejectBoth("recorded", "fps");
+  builder.substepsGiven = reader.has("substeps");
   builder.scene.world.substeps = static_cast<int>(reader.integer("substeps", 1, kMaxSubsteps));
   double fps = reader.number("fps", fpsRange);
   if (const auto given = overriding(overrides.fps, "fps", fpsRange, builder.errors)) fps = *given;

@@ -56,7 +56,7 @@ void parseLaunch(SceneBuilder& builder, const TomlValue& table) {
   launch.speed = builder.view.length()(reader.number("speed", Range::atLeast(0.0)));
 
   Body& body = launch.prototype;
-  readGroupAndLeaving(builder, reader, body);
+  readCommonProperties(builder, reader, body);
   body.feelsGravity = false;
   body.integrator = builder.integrator;
   body.radius = builder.view.length()(reader.number("radius", Range::atLeast(0.0)));

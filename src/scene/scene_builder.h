@@ -29,6 +29,7 @@ struct SceneBuilder {
   ErrorList errors;
   View view;
   Integrator integrator = Integrator::SemiImplicitEuler; ///< the world's
+  bool substepsGiven = false;                            ///< by [clock]
   LookTable looks;
   std::map<std::string, std::uint32_t, std::less<>> groups; ///< by name: index into WorldSetup::groups
   std::map<std::string, std::uint32_t, std::less<>> bodies; ///< by name: id

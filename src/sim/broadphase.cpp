@@ -7,10 +7,6 @@
 namespace offstage {
 namespace {
 
-constexpr int kLowestOctave = -64;
-/// Cells further out than this count as this one. Cells are only ever compared with <, so that is right.
-constexpr double kFarthestCell = 1 << 30;
-
 /// A touching pair's positions differ by at most the sum of their reaches, up to a few roundings: of the
 /// distance, of the sum of the radii (relative to the reach), of a rectangle's far side (relative to the
 /// position), and squares that vanish below 1e-162. This is more than all of them.
@@ -30,29 +26,12 @@ Broadphase::Reach Broadphase::reachOf(const Body& body) {
   return {Vec2(body.radius, body.radius), Vec2(body.radius, body.radius)};
 }
 
-int Broadphase::octaveOf(const Body& body) {
-  const double extent =
-      body.shape == Shape::Circle ? 2.0 * body.radius : std::max(body.size.x(), body.size.y());
-  if (!(extent < 0x1p+63)) return kOctaves;
-  if (extent < 0x1p-64) return 0;
-  return std::ilogb(extent) - kLowestOctave;
-}
-
-Broadphase::Cell Broadphase::cellOf(const Level& level, double x, double y) {
-  // Every step of it is monotone, so a position within a range lies in a cell within the range of cells.
-  const auto index = [&](double position) {
-    return static_cast<std::int32_t>(
-        std::clamp(std::floor(position * level.cellsPerPixel), -kFarthestCell, kFarthestCell));
-  };
-  return {index(x), index(y)};
+Broadphase::Cell Broadphase::cellAt(const Level& level, const Vec2& position) {
+  return {cellOf(position.x(), level.cellsPerPixel), cellOf(position.y(), level.cellsPerPixel)};
 }
 
 std::uint32_t Broadphase::headOf(const Level& level, Cell cell) {
-  // Neighbours in a row are neighbours in the table; the odd factor (2^32 over the golden ratio, Knuth, The
-  // Art of Computer Programming, volume 3, section 6.4) spreads the rows.
-  const std::uint32_t hash =
-      static_cast<std::uint32_t>(cell.x) + static_cast<std::uint32_t>(cell.y) * 2654435769U;
-  return level.firstHead + (hash & level.mask);
+  return level.firstHead + listOf(cell.x, cell.y, level.mask);
 }
 
 void Broadphase::begin(std::span<const Body> bodies, std::span<const std::uint32_t> members) {
@@ -67,49 +46,30 @@ void Broadphase::begin(std::span<const Body> bodies, std::span<const std::uint32
 }
 
 void Broadphase::layOutLevels(std::span<const Body> bodies, std::span<const std::uint32_t> members) {
+  sizes_.clear();
+  for (const std::uint32_t body : members) sizes_.count(extentOf(bodies[body]));
+  sizes_.layOut();
   levels_.clear();
   unbounded_.clear();
-  std::array<std::uint32_t, kOctaves + 1> counts{};
-  for (const std::uint32_t body : members) ++counts[static_cast<std::size_t>(octaveOf(bodies[body]))];
-  // Points, which have no extent to choose a cell by, go with the smallest bodies that have one.
-  std::size_t ofPoints = 1;
-  while (ofPoints < kOctaves && counts[ofPoints] == 0) ++ofPoints;
-  if (ofPoints == kOctaves)
-    ofPoints = static_cast<std::size_t>(-kLowestOctave); // all are points: cells of 1 px
-  counts[ofPoints] += counts[0];
-  counts[0] = 0;
-
-  std::array<std::uint32_t, kOctaves + 1> levelOf{};
-  levelOf.fill(kNone);
   std::uint32_t headCount = 0;
   std::uint32_t memberCount = 0;
-  for (std::size_t octave = 1; octave < kOctaves; ++octave) {
-    if (counts[octave] == 0) continue;
-    levelOf[octave] = static_cast<std::uint32_t>(levels_.size());
+  for (const std::uint32_t count : sizes_.members()) {
     Level level;
-    level.members = counts[octave];
-    if (octave + 1 < kOctaves && counts[octave + 1] > 0) { // within a factor of 4 of the smallest
-      ++octave;
-      levelOf[octave] = levelOf[octave - 1];
-      level.members += counts[octave];
-    }
     level.firstMember = memberCount;
-    memberCount += level.members;
-    const std::uint32_t heads = std::bit_ceil(level.members) * 2;
+    memberCount += count;
+    const std::uint32_t heads = std::max(32U, std::bit_ceil(count) * 2);
     level.mask = heads - 1;
     level.firstHead = headCount;
     headCount += heads;
     levels_.push_back(level);
   }
-  levelOf[0] = levelOf[ofPoints];
   heads_.assign(headCount, kNone);
   byLevel_.resize(memberCount);
 
-  for (Level& level : levels_) level.members = 0; // counted again as they come
   for (std::size_t i = 0; i < members.size(); ++i) {
     const Body& body = bodies[members[i]];
     const auto member = static_cast<std::uint32_t>(i);
-    entries_[i].level = levelOf[static_cast<std::size_t>(octaveOf(body))];
+    entries_[i].level = sizes_.levelOf(extentOf(body));
     if (entries_[i].level == kNone) {
       unbounded_.push_back(member);
       continue;
@@ -132,7 +92,7 @@ void Broadphase::insert(std::uint32_t member, const Body& body) {
   const Level& level = levels_[entry.level];
   entry.x = body.position.x();
   entry.y = body.position.y();
-  entry.cell = cellOf(level, entry.x, entry.y);
+  entry.cell = cellAt(level, body.position);
   entry.head = headOf(level, entry.cell);
   std::uint32_t& head = heads_[entry.head];
   entry.previous = kNone;
@@ -157,7 +117,7 @@ void Broadphase::move(std::uint32_t member, const Body& body) {
   Entry& entry = entries_[member];
   if (entry.level == kNone) return;
   if (entry.head != kNone && isFinite(body.position) &&
-      cellOf(levels_[entry.level], body.position.x(), body.position.y()) == entry.cell) {
+      cellAt(levels_[entry.level], body.position) == entry.cell) {
     entry.x = body.position.x();
     entry.y = body.position.y();
     return;
@@ -168,7 +128,7 @@ void Broadphase::move(std::uint32_t member, const Body& body) {
 
 void Broadphase::query(const Body& body, double margin, std::vector<std::uint32_t>& found) const {
   found.clear();
-  if (octaveOf(body) == kOctaves) {
+  if (sizes_.levelOf(extentOf(body)) == kNone) {
     for (std::size_t i = 0; i < entries_.size(); ++i) {
       if (entries_[i].head != kNone) found.push_back(static_cast<std::uint32_t>(i));
     }
@@ -198,8 +158,8 @@ void Broadphase::queryLevel(const Level& level, const Body& body, double margin,
     }
   };
 
-  const Cell first = cellOf(level, low.x(), low.y());
-  const Cell last = cellOf(level, high.x(), high.y());
+  const Cell first = cellAt(level, low);
+  const Cell last = cellAt(level, high);
   const std::int64_t columns = std::int64_t{last.x} - first.x + 1;
   const std::int64_t rows = std::int64_t{last.y} - first.y + 1;
   if (columns * rows >= level.members) {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "src/sim/body.h"
+#include "src/sim/size_levels.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -40,7 +40,6 @@ public:
 
 private:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-  static constexpr int kOctaves = 128; ///< of extents: 2^-64 px … 2^64 px
 
   /// How far a body reaches from its position along both axes: a circle by its radius both ways, a
   /// rectangle, whose position is its upper-left corner, by its size one way.
@@ -56,7 +55,7 @@ private:
     std::uint32_t firstMember = 0, members = 0; ///< its part of byLevel_
   };
   struct Cell {
-    std::int32_t x, y;
+    std::uint32_t x, y;
     bool operator==(const Cell&) const = default;
   };
   struct Entry {
@@ -68,14 +67,14 @@ private:
   };
 
   static Reach reachOf(const Body& body);
-  static int octaveOf(const Body& body); ///< kOctaves: too large for any grid
-  static Cell cellOf(const Level& level, double x, double y);
+  static Cell cellAt(const Level& level, const Vec2& position);
   static std::uint32_t headOf(const Level& level, Cell cell);
   void layOutLevels(std::span<const Body> bodies, std::span<const std::uint32_t> members);
   void insert(std::uint32_t member, const Body& body);
   void queryLevel(const Level& level, const Body& body, double margin,
                   std::vector<std::uint32_t>& found) const;
 
+  SizeLevels sizes_;
   std::vector<Level> levels_;
   std::vector<Entry> entries_;           ///< by member
   std::vector<std::uint32_t> heads_;     ///< of all levels: the first member of a list

@@ -4,28 +4,7 @@
 
 namespace offstage {
 
-ContactSolver::ContactSolver(const std::vector<ContactRule>& rules) : rules_(rules) {
-  for (const ContactRule& rule : rules_) {
-    ruledGroups_.push_back(rule.groupA);
-    ruledGroups_.push_back(rule.groupB);
-  }
-  std::sort(ruledGroups_.begin(), ruledGroups_.end());
-  ruledGroups_.erase(std::unique(ruledGroups_.begin(), ruledGroups_.end()), ruledGroups_.end());
-  const std::size_t size = ruledGroups_.size();
-  table_.assign(size * size, kNone);
-  for (std::size_t i = 0; i < rules_.size(); ++i) {
-    const std::size_t a = ruledIndex(rules_[i].groupA);
-    const std::size_t b = ruledIndex(rules_[i].groupB);
-    table_[a * size + b] = static_cast<std::uint32_t>(i);
-    table_[b * size + a] = static_cast<std::uint32_t>(i);
-  }
-}
-
-std::uint32_t ContactSolver::ruledIndex(std::uint32_t group) const {
-  const auto found = std::lower_bound(ruledGroups_.begin(), ruledGroups_.end(), group);
-  if (found == ruledGroups_.end() || *found != group) return kNone;
-  return static_cast<std::uint32_t>(found - ruledGroups_.begin());
-}
+ContactSolver::ContactSolver(const std::vector<ContactRule>& rules) : rules_(rules) {}
 
 void ContactSolver::solve(std::span<Body> bodies, std::span<std::uint8_t> removed, const Event& stamp,
                           std::vector<Event>& events) {
@@ -33,8 +12,8 @@ void ContactSolver::solve(std::span<Body> bodies, std::span<std::uint8_t> remove
   candidates_.clear();
   groups_.clear();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const std::uint32_t group = ruledIndex(bodies[i].group);
-    if (group == kNone) continue;
+    const std::uint32_t group = rules_.numberOf(bodies[i].group);
+    if (group == RuleTable::kNoRule) continue;
     candidates_.push_back(static_cast<std::uint32_t>(i));
     groups_.push_back(group);
   }
@@ -65,9 +44,9 @@ void ContactSolver::solveWithThoseBehind(std::uint32_t a, std::span<Body> bodies
   for (auto next = near_.begin(); next != near_.end();) {
     const std::uint32_t b = *next;
     ++next;
-    const std::uint32_t index = table_[groups_[a] * ruledGroups_.size() + groups_[b]];
-    if (index == kNone) continue;
-    const ContactRule& rule = rules_[index];
+    const ContactRule* found = rules_.find(groups_[a], groups_[b]);
+    if (found == nullptr) continue;
+    const ContactRule& rule = *found;
     Body& second = bodies[candidates_[b]];
     const std::optional<Contact> contact = findContact(first, second);
     if (!contact) continue;

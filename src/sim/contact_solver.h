@@ -4,6 +4,7 @@
 #include "src/sim/broadphase.h"
 #include "src/sim/contact.h"
 #include "src/sim/event.h"
+#include "src/sim/rule_table.h"
 #include "src/sim/world_setup.h"
 
 #include <cstdint>
@@ -28,21 +29,16 @@ public:
              std::vector<Event>& events);
 
 private:
-  static constexpr std::uint32_t kNone = 0xffffffffU;
   static constexpr std::uint32_t kGone = 0xffffffffU; ///< removed at once: touches nobody else
-
-  [[nodiscard]] std::uint32_t ruledIndex(std::uint32_t group) const;
 
   void solveWithThoseBehind(std::uint32_t a, std::span<Body> bodies, std::span<std::uint8_t> removed,
                             const Event& stamp, std::vector<Event>& events);
 
-  std::vector<ContactRule> rules_;
-  std::vector<std::uint32_t> ruledGroups_; ///< the groups that have a rule, ascending
-  std::vector<std::uint32_t> table_;       ///< by two indices into ruledGroups_: index of the rule, or kNone
+  RuleTable rules_;
 
   // Of a pass; kept between steps to spare allocations.
   std::vector<std::uint32_t> candidates_; ///< index of each body that has a rule
-  std::vector<std::uint32_t> groups_;     ///< by candidate: index into ruledGroups_, or kGone
+  std::vector<std::uint32_t> groups_;     ///< by candidate: its group's number in rules_, or kGone
   Broadphase broadphase_;
   std::vector<std::uint32_t> near_;
 };

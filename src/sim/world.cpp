@@ -40,7 +40,13 @@ World::World(WorldSetup setup)
       alive_(setup_.spawners.size(), 0) {
   checkSetup(setup_);
   mover_ = Mover(setup_);
-  contacts_ = ContactSolver(setup_.contacts);
+  std::vector<ContactRule> onePairAtATime = setup_.contacts;
+  if (setup_.contactModel == ContactModel::Solver) {
+    std::erase_if(onePairAtATime, [](const ContactRule& rule) { return rule.response == Response::Bounce; });
+    pile_ = PileSolver(setup_);
+  }
+  swept_ = SweptContacts(setup_);
+  contacts_ = ContactSolver(onePairAtATime);
   const std::vector<Body> first = std::exchange(setup_.bodies, {});
   bodies_.reserve(first.size());
   for (const Body& body : first) create(body, time_);
@@ -62,10 +68,14 @@ void World::step(const Tick& tick) {
   events_.clear();
   launchDue(tick);
   spawnDue(Spawner::When::BeforeUpdate, tick, time_);
-  const double h = tick.dt / setup_.substeps;
-  for (int j = 0; j < setup_.substeps; ++j) {
-    const double end = j + 1 == setup_.substeps ? tick.time : time_ + (j + 1) * h;
-    substep(time_ + j * h, h, end, stampOf(tick));
+  if (setup_.contactModel == ContactModel::Solver) {
+    pileStep(tick);
+  } else {
+    const double h = tick.dt / setup_.substeps;
+    for (int j = 0; j < setup_.substeps; ++j) {
+      const double end = j + 1 == setup_.substeps ? tick.time : time_ + (j + 1) * h;
+      substep(time_ + j * h, h, end, stampOf(tick));
+    }
   }
   frame_ = tick.frame;
   time_ = tick.time;
@@ -106,6 +116,7 @@ void World::spawnDue(Spawner::When when, const Tick& tick, double time) {
 }
 
 void World::substep(double t, double h, double end, const Event& stamp) {
+  const bool sweeps = swept_.begin(bodies_);
   mover_.begin(bodies_, t, h);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
@@ -113,11 +124,31 @@ void World::substep(double t, double h, double end, const Event& stamp) {
     const Motion motion = mover_.next(bodies_, i, t, h, end);
     body.position = motion.position;
     body.velocity = motion.velocity;
-    bounceOffWalls(setup_.walls, setup_.pane, body, stamp, events_);
+    if (!body.continuous) bounceOffWalls(setup_.walls, setup_.pane, body, stamp, events_);
   }
+  if (sweeps) sweep(h, stamp);
   removed_.assign(bodies_.size(), 0);
   contacts_.solve(bodies_, removed_, stamp, events_);
   removeGone(stamp);
+}
+
+void World::pileStep(const Tick& tick) {
+  const Event stamp = stampOf(tick);
+  const bool sweeps = swept_.begin(bodies_);
+  pile_.step(bodies_, mover_, time_, tick.dt, tick.time, stamp, events_);
+  if (sweeps) sweep(tick.dt, stamp);
+  removed_.assign(bodies_.size(), 0);
+  contacts_.solve(bodies_, removed_, stamp, events_);
+  removeGone(stamp);
+}
+
+void World::sweep(double h, const Event& stamp) {
+  removed_.assign(bodies_.size(), 0);
+  swept_.solve(bodies_, h, removed_, stamp, events_);
+  for (Body& body : bodies_) { // the pane holds, whatever the sweep left undone
+    if (body.continuous && !body.fixed) bounceOffWalls(setup_.walls, setup_.pane, body, stamp, events_);
+  }
+  removeMarked();
 }
 
 void World::removeGone(const Event& stamp) {
@@ -127,6 +158,10 @@ void World::removeGone(const Event& stamp) {
     removed_[i] = 1;
     events_.push_back(eventOf(stamp, EventKind::Leave, body.id, body.position));
   }
+  removeMarked();
+}
+
+void World::removeMarked() {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (removed_[i] != 0) {
@@ -138,6 +173,7 @@ void World::removeGone(const Event& stamp) {
   }
   if (kept == bodies_.size()) return;
   bodies_.resize(kept);
+  pile_.keepOnly(removed_);
   mover_.keepOnly(bodies_);
 }
 

@@ -5,7 +5,9 @@
 #include "src/sim/contact_solver.h"
 #include "src/sim/event.h"
 #include "src/sim/mover.h"
+#include "src/sim/pile_solver.h"
 #include "src/sim/random.h"
+#include "src/sim/swept_contacts.h"
 #include "src/sim/world_setup.h"
 
 #include <cstdint>
@@ -18,7 +20,9 @@ namespace offstage {
 /// The state of a simulation and the one way to change it. A copy is an independent world that goes on with
 /// the same bits. The order within a frame is the contract's: launches and spawns due → (for each substep:
 /// forces → each body in creation order integrated and held to its walls → contacts over pairs i < j →
-/// removals) → spawns that come after.
+/// removals) → spawns that come after. With bodies that are continuous, what they meet on their ways comes
+/// right before the contacts (SweptContacts). With ContactModel::Solver all substeps up to the contacts are
+/// PileSolver's, and the contacts that are not its business and the removals follow once a frame.
 class World {
 public:
   /// Throws Error(BadInput) when a setup cannot be simulated, such as an `Exact` body without a closed form;
@@ -46,13 +50,18 @@ private:
   void launchDue(const Tick& tick);
   void spawnDue(Spawner::When when, const Tick& tick, double time);
   void substep(double t, double h, double end,
-               const Event& stamp); ///< from t to `end`, by a step of length h
+               const Event& stamp);         ///< from t to `end`, by a step of length h
+  void pileStep(const Tick& tick);          ///< all substeps at once, by ContactModel::Solver
+  void sweep(double h, const Event& stamp); ///< what continuous bodies meet on their ways
   void removeGone(const Event& stamp);
+  void removeMarked();
 
   WorldSetup setup_;
   Random random_;
   Mover mover_;
   ContactSolver contacts_;
+  PileSolver pile_;
+  SweptContacts swept_;
   std::vector<Body> bodies_;
   std::vector<std::uint8_t>
       removed_; ///< by index into bodies_, within a step: 1 when a contact takes it away

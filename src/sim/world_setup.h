@@ -44,6 +44,12 @@ struct ContactRule {
   bool approachingOnly = true; ///< respond only while approaching, v1n > v2n
 };
 
+/// How bodies that touch are dealt with.
+enum class ContactModel : std::uint8_t {
+  Lecture, ///< the rules above, one pair after the other, once a step
+  Solver,  ///< Bounce by PileSolver, which lets piles rest; everything else as in the lecture
+};
+
 /// A number of a spawner: constant, or drawn from the world's java.util.Random.
 struct ConstantNumber {
   double value = 0.0;
@@ -104,6 +110,8 @@ struct WorldSetup {
   Vec2 gravity{0.0, 9.8};  ///< px/s²
   std::int64_t seed = 0;   ///< of the world's java.util.Random
   int substeps = 1;        ///< ≥ 1: each frame is this many steps of dt/substeps
+  ContactModel contactModel = ContactModel::Lecture;
+  int iterations = 1; ///< ≥ 1: of ContactModel::Solver, its sweeps in each of the substeps
   std::vector<std::string> groups{"bodies"};
   Walls walls;
   std::vector<Body> bodies;          ///< in order of creation; ids are 0, 1, 2, …

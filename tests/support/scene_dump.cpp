@@ -32,10 +32,10 @@ std::string dump(const Look& look) {
 std::string dump(const Body& b) {
   return fmt::format(
       "id {} group {} look {} shape {} integrator {} gravity {} fixed {} leaves {} x {} v {} a {} r {} "
-      "size {} m {}",
+      "size {} m {} e {} f {} continuous {}",
       b.id, b.group, b.look, static_cast<int>(b.shape), static_cast<int>(b.integrator), b.feelsGravity,
       b.fixed, b.removedOutside, dump(b.position), dump(b.velocity), dump(b.acceleration), b.radius,
-      dump(b.size), b.mass);
+      dump(b.size), b.mass, b.restitution, b.friction, b.continuous);
 }
 
 std::string dump(const Number& number) {
@@ -107,8 +107,9 @@ std::string dump(const Scene& scene) {
   std::string text = fmt::format("title {}\nsize {} background {} scale {}\nclock {} {} {}\n", scene.title,
                                  fmt::join(scene.size, "x"), dump(Paint(scene.background)), scene.scale,
                                  scene.clock.fps(), scene.clock.steps(), scene.clock.duration());
-  text += fmt::format("pane {} gravity {} seed {} substeps {} groups {}\nwalls {}", dump(world.pane),
-                      dump(world.gravity), world.seed, world.substeps, fmt::join(world.groups, ","),
+  text += fmt::format("pane {} gravity {} seed {} substeps {} contacts {} {} groups {}\nwalls {}",
+                      dump(world.pane), dump(world.gravity), world.seed, world.substeps,
+                      static_cast<int>(world.contactModel), world.iterations, fmt::join(world.groups, ","),
                       world.walls.clamp);
   for (const auto& side : world.walls.restitution) text += side ? fmt::format(" {}", *side) : " open";
   for (const Look& look : scene.looks) text += "\nlook " + dump(look);
