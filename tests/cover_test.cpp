@@ -1,8 +1,10 @@
+#include "render/draw/pen.h"
 #include "render/raster/canvas.h"
 #include "render/raster/cover.h"
 #include "render/raster/tile_set.h"
 #include "tests/support/canvas_pictures.h"
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -11,6 +13,24 @@
 
 namespace offstage::test {
 namespace {
+
+/// A line, an arrow or a piece of a path between two points.
+Primitive lineAt(const Vec2& from, const Vec2& to, int i) {
+  Picture scratch;
+  Pen pen(scratch, 0.4 + 0.02 * i, {0, 0, 0, 255});
+  const std::array<Vec2, 3> points{from, Vec2(0.4 * from + 0.6 * to + Vec2(9.0, -4.0)), to};
+  switch (i / 5 % 3) {
+  case 0:
+    pen.line(from, to);
+    break;
+  case 1:
+    pen.arrow(from, to, 14.0);
+    break;
+  default:
+    pen.path(points);
+  }
+  return scratch.primitives[static_cast<std::size_t>(i) % scratch.primitives.size()];
+}
 
 TEST(Cover, NoneAndWholeAreWhatTheCanvasPaints) {
   constexpr int kSide = 96;
@@ -36,6 +56,8 @@ TEST(Cover, NoneAndWholeAreWhatTheCanvasPaints) {
     }
     Picture picture = blankPicture(kSide, kSide);
     picture.primitives = {primitive};
+    if (i % 5 == 0) picture.primitives = {lineAt(at, Vec2(place(random), place(random)), i)};
+    primitive = picture.primitives.front();
     canvas.draw(picture, frame);
     const CoverTest test(primitive);
     for (int y = 0; y < kSide; ++y) {

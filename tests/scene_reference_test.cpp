@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -98,7 +99,9 @@ using Entries = std::vector<std::pair<std::string, std::string>>;
 /// The required entries of each table.
 Entries baseOf(const std::string& table) {
   static const std::map<std::string, Entries> bases = {
+      {"input", {{"log", "\"keys.log\""}}},
       {"body", {{"center", "[10, 20]"}, {"radius", "5"}}},
+      {"bodies", {{"table", "\"circles.csv\""}}},
       {"fill", {{"image", "\"image.png\""}}},
       {"random", {{"uniform", "[1, 2]"}}},
       {"spawn", {{"x", "1"}, {"y", "2"}, {"radius", "3"}}},
@@ -113,6 +116,15 @@ Entries baseOf(const std::string& table) {
       {"replay", {{"trace", "\"student.csv\""}}},
       {"replay.look", {{"id", "2"}}},
       {"golden", {{"at", "[0.5]"}}},
+      {"ruler", {{"from", "[10, 20]"}, {"to", "[30, 40]"}}},
+      {"plot", {{"y", "\"energy\""}}},
+      {"section", {{"title", "\"b\""}, {"start", "1"}}},
+      {"caption", {{"text", "\"a\""}, {"from", "0.25"}, {"to", "0.75"}}},
+      {"pause", {{"at", "0.5"}, {"for", "1"}}},
+      {"speed", {{"factor", "2"}}},
+      {"camera", {{"at", "1"}}},
+      {"narration", {{"file", "\"image.png\""}}},
+      {"text", {{"text", "\"b\""}, {"place", "\"top\""}}},
   };
   const auto found = bases.find(table);
   return found == bases.end() ? Entries{} : found->second;
@@ -143,13 +155,26 @@ Entries with(const std::string& table, const std::string& key, const std::string
     }
   }
   if (table == "spawn" && key == "center") drop({"x", "y"});
-  if (table == "launch" && key == "frame") drop({"at"});
+  if (table == "launch" && (key == "frame" || key == "on")) drop({"at"});
   if (table == "fill" && key == "cycle") drop({"image"});
   if (table == "replay.look" && key == "group") drop({"id"});
   if (table == "golden" && key == "every") drop({"at"});
   if (table == "random") drop({"uniform"});
+  if (table == "clock" && key == "dt") set(entries, "step", "\"fixed\"");
+  if (table == "ghost" && key == "fade") set(entries, "length", "1");
+  if (table == "caption" && (key == "on" || key == "body" || key == "limit")) {
+    drop({"from", "to"});
+    set(entries, "on", "\"bounce\"");
+  }
+  if (table == "caption" && key == "for") drop({"to"});
+  if (table == "pause" && (key == "style" || key == "color")) set(entries, "highlight", "[\"b\"]");
+  if (table == "text" && key == "at") drop({"place"});
+  if (table == "text" && key == "formula") drop({"text"});
+  if (table == "text" && key == "padding") set(entries, "background", "\"red\"");
+  if (table == "text" && key == "outline_width") set(entries, "outline", "\"red\"");
   if (table == "stroke" && (key == "anchor" || key == "proportional")) set(entries, "image", "\"image.png\"");
   if ((table == "fill" || table == "stroke") && key == "proportional") set(entries, "anchor", "[0, 0, 1, 1]");
+  if (table == "world" && key == "iterations") set(entries, "contacts", "\"solver\"");
   if (!key.empty()) set(entries, key, value);
   return entries;
 }
@@ -170,9 +195,25 @@ std::string sceneWith(const std::string& table, const Entries& entries) {
   if (table == "fill") return spawn + "fill = { " + inlined + " }\n";
   if (table == "stroke") return spawn + "stroke = { " + inlined + " }\n";
   if (table == "random") return spawn + "vx = { " + inlined + " }\n";
+  if (table == "launch") return body + "[input]\nlog = \"keys.log\"\n[[launch]]\n" + lines;
   if (table.starts_with("force")) return body + "[[force]]\n" + lines;
-  const bool many = table == "body" || table == "spawn" || table == "launch" || table == "collide";
+  const std::string section = "[[section]]\ntitle = \"b\"\nstart = 0\n";
+  if (table == "caption" || table == "camera") return body + section + "[[" + table + "]]\n" + lines;
+  static const std::set<std::string> tables = {"body",         "bodies", "spawn",   "launch", "collide",
+                                               "trail",        "ghost",  "outline", "mark",   "arrow",
+                                               "contact_mark", "ruler",  "panel",   "plot",   "text",
+                                               "section",      "pause",  "speed"};
+  const bool many = tables.contains(table);
+  if (table == "panels") return body + "[[panel]]\n[[panel]]\n[panels]\n" + lines;
   return body + (many ? "[[" + table + "]]\n" : "[" + table + "]\n") + lines;
+}
+
+/// The entries that a table of which there are many needs, as a table in braces has them.
+std::string tableOf(const std::string& key) {
+  std::string table;
+  for (const auto& [name, value] : baseOf(key == "force" ? "force.drag" : key))
+    table += fmt::format("{}{} = {}", table.empty() ? "" : ", ", name, value);
+  return table;
 }
 
 /// A value of the documented type.
@@ -192,38 +233,61 @@ std::string valueOf(const DocumentedKey& key) {
       {"[mean, deviation]", "[1, 2]"},
       {"number or list", "[0.5, 1]"},
       {"list of numbers", "[0.5, 1]"},
+      {"list of names", "[\"b\"]"},
       {"list of [x, y, width, height]", "[[1, 2, 3, 4]]"},
       {"file or list", "\"image.png\""},
       {"integer or list", "[5, 6]"},
       {"[x, y] or name", "\"b\""},
+      {"value or list", "[\"b.x\", \"t\"]"},
+      {"string or list", "\"b\""},
+      {"colour or list", "[\"red\"]"},
+      {"name or list", "[\"b\", \"bodies\"]"},
       {"[group, group]", "[\"bodies\", \"bodies\"]"},
       {"expression", "\"x + 1\""},
+      {"key or button", "\"key SPACE\""},
+      {"choice or file", "\"mono\""},
       {"table", "{}"},
   };
   // Words and truths other than the default, so that they have an effect.
   static const std::map<std::string, std::string> words = {
-      {"integrator", "rk4"},  {"shape", "circle"}, {"align", "inside"},      {"count", "alive"},
-      {"response", "report"}, {"type", "drag"},    {"when", "after-update"},
+      {"quantity", "force"},    {"integrator", "rk4"}, {"shape", "circle"},    {"align", "inside"},
+      {"step", "fixed"},        {"count", "alive"},    {"response", "report"}, {"type", "drag"},
+      {"when", "after-update"}, {"place", "bottom"},   {"anchor", "left"},     {"style", "dim"},
+      {"easing", "in"},         {"on", "collide"},     {"contacts", "solver"},
   };
   if (key.type == "boolean") return key.defaultText == "true" ? "false" : "true";
+  if (key.table == "panel" && key.type == "tables") return "[{ " + tableOf(key.key) + " }]";
+  if (key.key == "panels") return "{ gap = 2 }\npanel = [{}]";
+  if (key.key == "layout") return "\"overlaid\"";
+  if (key.key == "x_scale" || key.key == "y_scale") return "\"log\"";
+  if (key.table == "plot" && key.key == "area") return "[10, 20, 300, 200]";
+  if (key.key == "text_size") return "20.5";
+  if (key.key == "columns") return "1";
+  if (key.table == "plot" && key.key == "legend") return "true";
+  if (key.table == "plot" && key.key == "x") return "[\"b.x\"]";
+  if (key.table == "panels" && key.key == "size") return "[900, 700]";
+  if (key.key == "layer") return key.defaultText == "\"front\"" ? "\"behind\"" : "\"front\"";
+  if (key.table == "mark" && key.key == "shape") return "\"dot\"";
   if (key.key == "leaving") return key.defaultText == "\"keep\"" ? "\"remove\"" : "\"keep\"";
+  if (key.table == "theme" && key.key == "name") return "\"dark\"";
+  if (key.table == "text" && key.key == "align") return "\"right\"";
+  if (key.table == "text" && key.key == "size") return "20.5";
   if (key.type == "choice") return '"' + words.at(key.key) + '"';
   if (key.key == "name") return "\"another\"";
   if (key.key == "recorded") return "\"log.dt\"";
+  if (key.key == "log") return "\"keys.log\"";
+  if (key.key == "input") return "{ log = \"keys.log\" }";
+  if (key.key == "table") return "\"circles.csv\"";
   if (key.key == "trace") return "\"student.csv\"";
   if (key.key == "replay") return "{ trace = \"student.csv\" }";
+  if (key.key == "narration" && key.table.empty()) return "{ file = \"image.png\" }";
   if (key.key == "golden") return "{ at = [1] }";
   if (key.key == "look") return "[{ id = 2, fill = \"red\" }]";
   if (key.table == "force" && key.key == "group") return "\"bodies\"";
   if (key.type == "file") return "\"image.png\"";
   if (key.type == "table" && key.key == "stroke") return "{ width = 2 }";
   if (key.type == "tables") {
-    Entries entries = baseOf(key.key == "collide" || key.key == "force" ? "" : key.key);
-    if (key.key == "force") entries = baseOf("force.drag");
-    std::string table;
-    for (const auto& [name, value] : entries)
-      table += fmt::format("{}{} = {}", table.empty() ? "" : ", ", name, value);
-    if (key.key != "collide") return "[{ " + table + " }]";
+    if (key.key != "collide") return "[{ " + tableOf(key.key) + " }]";
     // A rule needs a group that has a body.
     return "[{ between = [\"bodies\", \"bodies\"] }]\nbody = [{ center = [1, 2], radius = 3 }]";
   }
@@ -237,6 +301,8 @@ protected:
   SceneReference() {
     folder_.write("image.png", "only looked for, not read");
     folder_.write("log.dt", "16666667\n");
+    folder_.write("keys.log", "0.5 key down SPACE\n");
+    folder_.write("circles.csv", "x,y,radius\n1,2,3\n");
     folder_.write("student.csv",
                   "frame,time,id,x,y,radius,group\n0,0,0,1,2,3,a\n0,0,2,1,2,3,b\n1,1,2,1,2,3,b\n");
   }

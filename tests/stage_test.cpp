@@ -159,5 +159,44 @@ TEST(GameObject, UpdateIsTheLecturesOrderVelocityFirst) {
   EXPECT_EQ(ball.position().y(), 100.0 + (9.8 * 0.5) * 0.5);
 }
 
+TEST(Stage, TextsLieOverShapesAndLeaveTheStateHashAlone) {
+  const auto sourceOf = [](bool told) {
+    auto exercise = std::make_unique<Scripted>();
+    Circle ball(100.0, 20.0, 5.0);
+    Text label(100.0, 60.0, "one\ntwo", 20.0, Color::rgb(255, 0, 0));
+    exercise->atStart = [=](Stage& stage) {
+      if (told) stage.add(label);
+      stage.add(ball);
+    };
+    exercise->atFrame = [=](Stage& stage, double) mutable {
+      ball.setCenterX(100.0 + 10.0 * static_cast<double>(stage.frame()));
+      label.setText("frame " + std::to_string(stage.frame()));
+      if (stage.frame() == 2) stage.remove(label);
+    };
+    return std::make_unique<StageSource>(std::move(exercise), RenderOptions{});
+  };
+  const auto plain = sourceOf(false);
+  const auto told = sourceOf(true);
+  const Picture first = pictureOf(*told);
+  ASSERT_EQ(first.primitives.size(), 1U + 6U);
+  EXPECT_EQ(first.primitives[0].kind, Primitive::Kind::Disc);
+  EXPECT_EQ(first.primitives[1].kind, Primitive::Kind::Mask);
+  EXPECT_EQ(first.primitives[1].color, (Rgba8{255, 0, 0, 255}));
+  for (const std::size_t letters : {6U, 0U}) {
+    plain->step();
+    told->step();
+    EXPECT_EQ(pictureOf(*told).primitives.size(), 1U + letters) << "a blank has no pixels";
+    EXPECT_EQ(plain->stateHash(), told->stateHash());
+  }
+}
+
+TEST(Stage, ATextThatCannotBeSetIsRefusedBeforeItIsDrawn) {
+  for (const auto& [text, size] : {std::pair("漢", 20.0), std::pair("x", 1e9), std::pair("x", -1.0)}) {
+    auto exercise = std::make_unique<Scripted>();
+    exercise->atStart = [text = text, size = size](Stage& stage) { stage.add(Text(1.0, 2.0, text, size)); };
+    EXPECT_THROW(StageSource(std::move(exercise), {}), Error) << text << ' ' << size;
+  }
+}
+
 } // namespace
 } // namespace offstage

@@ -1,5 +1,8 @@
 #include "render/draw/painter.h"
 
+#include "render/draw/pen.h"
+#include "src/scene/palette.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -68,7 +71,8 @@ void Painter::begin(Picture& picture) const {
   picture.clip = viewport_.clip;
 }
 
-void Painter::circle(Picture& picture, const Vec2& center, double radius, std::uint32_t look) const {
+void Painter::circle(Picture& picture, const Vec2& center, double radius, std::uint32_t look,
+                     double opacity) const {
   if (!finite(center) || !std::isfinite(radius) || !(radius > 0.0)) return;
   const PreparedLook& prepared = looks_.at(look);
   Primitive primitive;
@@ -79,7 +83,7 @@ void Painter::circle(Picture& picture, const Vec2& center, double radius, std::u
   if (prepared.fill) {
     primitive.kind = Primitive::Kind::Disc;
     primitive.outer = outline;
-    add(picture, primitive, *prepared.fill, bounds, false);
+    add(picture, primitive, bounds, {*prepared.fill, opacity, false});
   }
   if (!prepared.stroke) return;
   // JavaFX strokes the outline with a centred pen, for INSIDE and OUTSIDE of twice the width and then cut by
@@ -92,10 +96,11 @@ void Painter::circle(Picture& picture, const Vec2& center, double radius, std::u
   primitive.outer = outline + half;
   if (prepared.strokeAlign == StrokeAlign::Inside) primitive.outer = outline;
   if (prepared.strokeAlign == StrokeAlign::Outside) primitive.inner = std::max(primitive.inner, outline);
-  if (primitive.inner < primitive.outer) add(picture, primitive, *prepared.stroke, bounds, true);
+  if (primitive.inner < primitive.outer) add(picture, primitive, bounds, {*prepared.stroke, opacity, true});
 }
 
-void Painter::rectangle(Picture& picture, const Vec2& position, const Vec2& size, std::uint32_t look) const {
+void Painter::rectangle(Picture& picture, const Vec2& position, const Vec2& size, std::uint32_t look,
+                        double opacity) const {
   if (!finite(position) || !finite(size) || !(size.x() > 0.0) || !(size.y() > 0.0)) return;
   const PreparedLook& prepared = looks_.at(look);
   const Vec2 low = position * viewport_.scale + viewport_.offset;
@@ -105,7 +110,7 @@ void Painter::rectangle(Picture& picture, const Vec2& position, const Vec2& size
     primitive.kind = Primitive::Kind::Box;
     primitive.low = bounds.low;
     primitive.high = bounds.high;
-    add(picture, primitive, *prepared.fill, bounds, false);
+    add(picture, primitive, bounds, {*prepared.fill, opacity, false});
   }
   if (!prepared.stroke) return;
   const double width = prepared.strokeWidth * viewport_.scale;
@@ -119,28 +124,54 @@ void Painter::rectangle(Picture& picture, const Vec2& position, const Vec2& size
   primitive.high = bounds.high + outside;
   primitive.innerLow = bounds.low + inside;
   primitive.innerHigh = bounds.high - inside;
-  add(picture, primitive, *prepared.stroke, bounds, true);
+  add(picture, primitive, bounds, {*prepared.stroke, opacity, true});
 }
 
-void Painter::body(Picture& picture, const Body& body, std::uint32_t look) const {
+void Painter::body(Picture& picture, const Body& body, std::uint32_t look, double opacity) const {
   if (body.shape == Shape::Circle) {
-    circle(picture, body.position, body.radius, look);
+    circle(picture, body.position, body.radius, look, opacity);
   } else {
-    rectangle(picture, body.position, body.size, look);
+    rectangle(picture, body.position, body.size, look, opacity);
   }
 }
 
+Rgba8 Painter::colorOf(std::uint32_t look) const {
+  const PreparedLook& prepared = looks_.at(look);
+  for (const std::optional<PreparedPaint>& paint : {prepared.fill, prepared.stroke}) {
+    if (!paint || paint->image != nullptr || paint->color.a == 0) continue;
+    return {paint->color.r, paint->color.g, paint->color.b, 255};
+  }
+  return bytes(inkOn({background_.r, background_.g, background_.b, background_.a / 255.0}), 1.0);
+}
+
+void Painter::veil(Picture& picture, Rgba8 color) const {
+  if (color.a > 0) picture.primitives.push_back(layer(color));
+}
+
+void Painter::ground(Picture& picture, Rgba8 color) const {
+  if (color.a > 0) picture.primitives.insert(picture.primitives.begin(), layer(color));
+}
+
+Primitive Painter::layer(Rgba8 color) const {
+  Primitive primitive;
+  primitive.kind = Primitive::Kind::Box;
+  primitive.color = color;
+  primitive.low = Vec2(viewport_.clip.left, viewport_.clip.top);
+  primitive.high = Vec2(viewport_.clip.right, viewport_.clip.bottom);
+  return primitive;
+}
+
 /// Appends the primitive with its paint, unless nothing of it can be seen.
-void Painter::add(Picture& picture, Primitive& primitive, const PreparedPaint& paint, const Bounds& bounds,
-                  bool isStroke) const {
-  if (paint.color.a == 0) return;
+void Painter::add(Picture& picture, Primitive& primitive, const Bounds& bounds, const Coat& coat) const {
+  const PreparedPaint& paint = coat.paint;
+  primitive.color = faded(paint.color, coat.opacity);
+  if (primitive.color.a == 0) return;
   const bool round = primitive.kind == Primitive::Kind::Disc || primitive.kind == Primitive::Kind::Ring;
   const Vec2 reach(primitive.outer, primitive.outer);
   if (!(round ? visible(viewport_, primitive.center - reach, primitive.center + reach)
               : visible(viewport_, primitive.low, primitive.high))) {
     return;
   }
-  primitive.color = paint.color;
   primitive.pattern = -1;
   if (paint.image != nullptr) {
     const Vec2 anchorLow(paint.anchor[0], paint.anchor[1]);
@@ -154,7 +185,8 @@ void Painter::add(Picture& picture, Primitive& primitive, const PreparedPaint& p
       const Vec2 anchorHigh = anchorLow + anchorSize;
       const bool covers =
           anchorLow.x() <= 0.0 && anchorLow.y() <= 0.0 && anchorHigh.x() >= 1.0 && anchorHigh.y() >= 1.0;
-      placed.repeat = isStroke || !covers; // a stroke reaches beyond the box that the pattern is fitted to
+      placed.repeat =
+          coat.isStroke || !covers; // a stroke reaches beyond the box that the pattern is fitted to
     } else {
       placed.origin = anchorLow * viewport_.scale + viewport_.offset;
       placed.size = anchorSize * viewport_.scale;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/draw/image.h"
+#include "render/draw/mask.h"
 #include "src/sim/vec.h"
 
 #include <cstdint>
@@ -57,10 +58,26 @@ struct Primitive {
     Ring,    ///< inner < |p − center| < outer
     Box,     ///< low < p < high
     BoxRing, ///< inside low…high and not inside innerLow…innerHigh
+    Mask,    ///< a mask at whole pixels: low its upper-left corner, high − low its size
+    Quad,    ///< the convex quadrilateral low, high, innerLow, innerHigh; a triangle repeats a corner
+    /// From low to high: a shaft of half the width `outer`, then a triangular head, innerLow.x long and of
+    /// half the width innerLow.y. With a head as long as the whole, a triangle.
+    Arrow,
+    /// Nearer than outer to the line through low and high: a straight piece of a path. A pixel belongs to it
+    /// when its centre lies in front of the cut through low and not in front of the cut through high, so that
+    /// neighbouring pieces share no pixel and leave none out. innerLow, innerHigh: the cuts' normals along
+    /// the path.
+    Strip,
+    /// Nearer than outer to the path low, center, high: a corner of a path, or with center = high one
+    /// straight line. With a normal in innerLow, innerHigh it is cut there as a Strip is; without (zero) it
+    /// ends round.
+    Elbow,
   };
   Kind kind = Kind::Disc;
   Rgba8 color;               ///< with a pattern, only .a is used: it multiplies the image's alpha
-  std::int32_t pattern = -1; ///< index into Picture::patterns, or −1
+  std::int32_t pattern = -1; ///< index into Picture::patterns, or −1; of the kinds up to BoxRing only
+  std::int32_t mask = -1;    ///< of a Mask: index into Picture::masks
+  std::int32_t clip = -1;    ///< index into Picture::clips, or −1: Picture::clip holds alone
   Vec2 center = Vec2::Zero();
   double outer = 0.0; ///< ≥ 0
   double inner = 0.0; ///< 0 … outer
@@ -78,10 +95,14 @@ struct Picture {
   PixelRect clip{0, 0, std::numeric_limits<int>::max(), std::numeric_limits<int>::max()};
   std::vector<Primitive> primitives;
   std::vector<PlacedPattern> patterns;
+  std::vector<PixelRect> clips;                   ///< narrower ones, for single primitives: panels, plots
+  std::vector<std::shared_ptr<const Mask>> masks; ///< known by their address: the same mask, the same object
 
   void clear() {
     primitives.clear();
     patterns.clear();
+    clips.clear();
+    masks.clear();
   } ///< keeps the memory for the next frame
 };
 

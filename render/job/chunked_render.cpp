@@ -5,6 +5,7 @@
 #include "render/job/fingerprint.h"
 #include "render/job/notice.h"
 #include "render/job/processors.h"
+#include "render/job/sidecar.h"
 #include "render/job/workers.h"
 #include "render/output/atomic_file.h"
 #include "render/output/codecs.h"
@@ -53,6 +54,8 @@ public:
                               plan_.chunks() == 1 ? "" : "s"));
     }
     if (!options.hashFile.empty()) requireWritable(options.hashFile);
+    if (source.hasCaptions() && !options.segment && Sidecar::nameFor(options.out))
+      sidecar_.emplace(options.out);
     said_ = output_->notice();
     printNotice(said_);
   }
@@ -197,7 +200,12 @@ private:
   std::int64_t joinChunks(const Parts& parts) {
     std::vector<fs::path> chunks;
     for (std::int64_t chunk = 0; chunk < plan_.chunks(); ++chunk) chunks.push_back(parts.chunk(chunk));
+    const VideoTracks tracks = source_.tracks(schedule_.origin(), schedule_.origin() + schedule_.seconds());
+    if (tracks.sound && !holdsSound(outputKind(options_.out)))
+      printNotice(fmt::format("{} holds no sound", quoted(options_.out.filename())));
+    output_->setTracks(tracks);
     const std::int64_t bytes = output_->join(chunks, plan_.frames());
+    if (sidecar_) sidecar_->write(tracks);
     printNotice(output_->notice().substr(said_.size())); // what only the whole told
     return bytes;
   }
@@ -229,7 +237,8 @@ private:
   std::int64_t endChunk_;
   std::unique_ptr<ChunkedOutput> output_;
   SharedState state_;
-  std::string said_; ///< of the output's notice
+  std::optional<Sidecar> sidecar_; ///< where there are captions
+  std::string said_;               ///< of the output's notice
 };
 
 } // namespace
@@ -261,6 +270,7 @@ RenderOptions optionsOfSegments(const RenderOptions& options) {
   put(merged.from, options.from);
   put(merged.to, options.to);
   put(merged.dtLog, options.dtLog);
+  put(merged.input, options.input);
   put(merged.seed, options.seed);
   put(merged.scale, options.scale);
   put(merged.quality, options.quality);

@@ -68,6 +68,8 @@ void addSceneOptions(CLI::App& app, RenderOptions& options) {
   addNumber(app, "--duration", options.duration, "S", "simulated seconds");
   app.add_option("--dt", options.dtLog, "a dt log to step by: a frame duration in ns a line")
       ->type_name("LOG");
+  app.add_option("--input", options.input, "recorded input to replay: keys and mouse, an event a line")
+      ->type_name("LOG");
   addNumber(app, "--seed", options.seed, "N", "seed of the random numbers");
   addNumber(app, "--scale", options.scale, "F", "output pixels per scene pixel");
 }
@@ -82,8 +84,9 @@ void addSizeOption(CLI::App& app, RenderOptions& options) {
 void addDrawingOptions(CLI::App& app, RenderOptions& options) {
   addSizeOption(app, options);
   addSceneOptions(app, options);
-  addNumber(app, "--from", options.from, "S", "first simulated second to show");
-  addNumber(app, "--to", options.to, "S", "simulated second at which to end");
+  addNumber(app, "--from", options.from, "S",
+            "first second of the video to show (of simulated time, unless the scene changes it)");
+  addNumber(app, "--to", options.to, "S", "second of the video at which to end");
   app.add_option_function<std::string>(
          "--quality", [&options](const std::string& text) { options.quality = parseQuality(text); },
          "draft, good (default), high; lossless with .mkv")
@@ -99,28 +102,47 @@ void addOutputOption(CLI::App& app, RenderOptions& options) {
       ->type_name("OUT");
 }
 
-void addReportOptions(CLI::App& app, RenderOptions& options) {
+void addJobsOption(CLI::App& app, RenderOptions& options) {
+  app.add_option_function<std::string>(
+         "--jobs", [&options](const std::string& text) { options.jobs = parseJobs(text); },
+         "worker processes at a time (default: one a processor); 0: none, all in this process")
+      ->type_name("N");
+}
+
+void addProgressOption(CLI::App& app, RenderOptions& options) {
   app.add_option_function<std::string>(
          "--progress", [&options](const std::string& text) { options.progress = parseProgress(text); },
          "auto (a bar on a terminal), json (a line each), none")
       ->type_name("MODE");
-  app.add_option("--hash", options.hashFile, "write a line a frame: frame state-hash pixel-hash")
+}
+
+void addReportOptions(CLI::App& app, RenderOptions& options) {
+  addProgressOption(app, options);
+  app.add_option("--hash", options.hashFile,
+                 "write a line a frame of the output: the simulated frame that it shows, its state hash, the "
+                 "pixel hash")
       ->type_name("FILE");
 }
 
 } // namespace
 
+void addWorkerOptions(CLI::App& app, RenderOptions& options) {
+  addJobsOption(app, options);
+  addProgressOption(app, options);
+}
+
 void addRenderOptions(CLI::App& app, RenderOptions& options) {
   addOutputOption(app, options);
   addDrawingOptions(app, options);
-  app.add_option_function<std::string>(
-         "--jobs", [&options](const std::string& text) { options.jobs = parseJobs(text); },
-         "worker processes at a time (default: one a processor); 0: none, all in this process")
-      ->type_name("N");
+  addJobsOption(app, options);
   app.add_option_function<std::string>(
          "--segment", [&options](const std::string& text) { options.segment = parseSegment(text); },
          "render only the I-th of N parts, from 1 on; join them with `offstage join`")
       ->type_name("I/N");
+  app.add_option(
+         "--poster", options.poster,
+         "also draw one moment, which stands for the video: that of the scene's [poster], else half of it")
+      ->type_name("X.png|X.jpg");
   app.add_flag_callback(
       "--no-resume", [&options] { options.resume = false; }, "start over, whatever an earlier run has left");
   addReportOptions(app, options);

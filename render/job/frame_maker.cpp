@@ -1,7 +1,5 @@
 #include "render/job/frame_maker.h"
 
-#include <string>
-
 #include <fmt/format.h>
 
 namespace offstage {
@@ -19,18 +17,18 @@ FrameMaker::FrameMaker(Source& source, const Schedule& schedule)
       canvas_(picture_.width, picture_.height) {}
 
 const Frame& FrameMaker::make(std::int64_t index) {
-  const std::int64_t wanted = schedule_.simulated(index);
-  while (source_.frame() < wanted) source_.step();
-  if (wanted != drawn_) {
+  const Shot shot = schedule_.shot(index);
+  source_.show(shot);
+  if (shot.moment != drawn_ || source_.followsVideoTime()) {
     source_.draw(picture_);
     canvas_.draw(picture_, frame_);
-    drawn_ = wanted;
+    drawn_ = shot.moment;
   }
   return frame_;
 }
 
 std::string FrameMaker::hashLine() const {
-  return fmt::format("{} {:016x} {:016x}\n", drawn_, source_.stateHash(), frame_.hash());
+  return fmt::format("{} {:016x} {:016x}\n", drawn_.value().frame, source_.shownStateHash(), frame_.hash());
 }
 
 } // namespace offstage

@@ -5,6 +5,8 @@
 #include "render/raster/canvas.h"
 
 #include <cstdint>
+#include <optional>
+#include <string>
 
 namespace offstage {
 
@@ -25,7 +27,8 @@ private:
   Picture picture_;
   Canvas canvas_;
   Frame frame_;
-  std::int64_t drawn_ = -1; ///< the simulated frame that frame_ shows; resampling may show one twice
+  std::optional<Moment>
+      drawn_; ///< what frame_ shows; resampling and pauses show one moment in several frames
 };
 
 /// The source's present picture, for its size and background.

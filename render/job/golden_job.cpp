@@ -5,6 +5,7 @@
 #include "render/compare/shell_word.h"
 #include "render/job/interrupt.h"
 #include "render/job/scene_source.h"
+#include "render/job/still.h"
 #include "render/output/png.h"
 #include "render/raster/canvas.h"
 #include "src/scene/quote.h"
@@ -62,7 +63,7 @@ public:
       : scene_(scene),
         name_(scene.file.stem().string()),
         source_(scene, Viewport::scaled(scene.size[0], scene.size[1], scene.scale)),
-        recorder_(groupsOf(scene), framesOf(scene)),
+        recorder_(groupsOf(scene), framesOf(scene, source_)),
         recorded_(store.states(name_)) {
     if (recorded_) watch_.emplace(*recorded_);
     source_.draw(picture_);
@@ -75,21 +76,24 @@ public:
   /// Calls `each` with every golden moment, in order of time.
   void drawEach(const std::function<void(const GoldenPicture&)>& each) {
     for (const double at : scene_.golden->at) {
-      const std::int64_t frame = source_.clock().frameAt(at + 1e-9);
-      while (source_.frame() < frame) {
+      const Shot shot = shotAt(source_, at);
+      while (source_.frame() < shot.moment.frame) {
         throwIfInterrupted();
         source_.step();
         note();
       }
+      source_.show(shot);
+      if (source_.frame() > noted_)
+        note(); // a moment between two frames lets the source stand at the later one
       GoldenPicture golden;
       golden.name = goldenName(name_, at);
       golden.sceneName = name_;
       source_.draw(picture_);
       canvas_->draw(picture_, golden.frame);
       golden.alpha = picture_.background.a != 255;
-      golden.number = frame;
-      golden.time = source_.time();
-      golden.state = source_.stateHash();
+      golden.number = shot.moment.frame;
+      golden.time = source_.clock().time(shot.moment.frame);
+      golden.state = source_.shownStateHash();
       golden.machine = machine_;
       each(golden);
     }
@@ -104,13 +108,14 @@ public:
   [[nodiscard]] const std::string& name() const { return name_; }
 
 private:
-  static std::vector<std::int64_t> framesOf(const Scene& scene) {
+  static std::vector<std::int64_t> framesOf(const Scene& scene, const SceneSource& source) {
     std::vector<std::int64_t> frames;
-    for (const double at : scene.golden->at) frames.push_back(scene.clock.frameAt(at + 1e-9));
+    for (const double at : scene.golden->at) frames.push_back(shotAt(source, at).moment.frame);
     return frames;
   }
 
   void note() {
+    noted_ = source_.frame();
     recorder_.add(source_.frame(), source_.time(), source_.stateHash(), source_.bodies());
     if (watch_) watch_->add(source_.frame(), source_.time(), source_.stateHash(), source_.bodies());
   }
@@ -121,6 +126,7 @@ private:
   GoldenRecorder recorder_;
   std::optional<GoldenStates> recorded_;
   std::optional<StatesWatch> watch_;
+  std::int64_t noted_ = -1; ///< the last frame whose state was recorded
   Picture picture_;
   std::unique_ptr<Canvas> canvas_;
   GoldenMachine machine_;

@@ -62,8 +62,8 @@ RenderResult render(Source& source, const RenderOptions& options) {
 }
 
 void requireOutput(const RenderOptions& options) {
-  if (options.out.empty() && options.hashFile.empty())
-    throw Error(ExitCode::BadInput, "nothing to make: give -o OUT (or --hash FILE)");
+  if (options.out.empty() && options.hashFile.empty() && options.poster.empty())
+    throw Error(ExitCode::BadInput, "nothing to make: give -o OUT (or --hash FILE, or --poster FILE)");
 }
 
 void printSummary(const RenderResult& result, const RenderOptions& options) {

@@ -22,6 +22,7 @@ std::vector<std::string> RenderOptions::drawingArguments() const {
   add("duration", duration);
   add("from", from);
   add("to", to);
+  if (input) arguments.push_back(fmt::format("--input={}", std::filesystem::absolute(*input).native()));
   if (dtLog) arguments.push_back(fmt::format("--dt={}", std::filesystem::absolute(*dtLog).native()));
   add("seed", seed);
   add("scale", scale);

@@ -29,10 +29,12 @@ struct RenderOptions {
   std::optional<double> duration;         ///< s
   std::optional<double> from, to;         ///< s: the part to render
   std::optional<std::filesystem::path> dtLog;
+  std::optional<std::filesystem::path> input; ///< a log of recorded input (src/scene/input_log.h)
   std::optional<std::int64_t> seed;
   std::optional<double> scale;    ///< output pixels per scene pixel
   std::optional<Quality> quality; ///< nothing: the format's default
   std::filesystem::path hashFile; ///< a line a frame: `frame state-hash pixel-hash`; empty: none
+  std::filesystem::path poster;   ///< a picture of one moment, .png or .jpg; empty: none
   /// Worker processes at a time; 0: everything in this process, without fork. Nothing: as many as there are
   /// processors. The output's bytes do not depend on it. Raw outputs are written by this process alone.
   std::optional<int> jobs;
@@ -40,7 +42,7 @@ struct RenderOptions {
   bool resume = true;             ///< use the chunks that an interrupted run of the same render has left
   ProgressMode progress = ProgressMode::Auto;
 
-  [[nodiscard]] SceneOverrides sceneOverrides() const { return {fps, dtLog, duration, seed, scale}; }
+  [[nodiscard]] SceneOverrides sceneOverrides() const { return {fps, dtLog, duration, seed, scale, input}; }
 
   /// Where a pane of this size (px) lies on the output. `scale` is the scene's, already overridden.
   [[nodiscard]] Viewport viewport(double paneWidth, double paneHeight, double sceneScale) const;

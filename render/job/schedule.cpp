@@ -23,9 +23,9 @@ std::int64_t nanosecondsOf(double seconds) {
 } // namespace
 
 Schedule::Schedule(const Clock& clock, std::optional<double> from, std::optional<double> to,
-                   std::optional<double> fps)
-    : clock_(clock) {
-  const double duration = clock.duration();
+                   std::optional<double> fps, const Film* film)
+    : clock_(clock), film_(film != nullptr && film->map ? film : nullptr) {
+  const double duration = film_ != nullptr ? film_->seconds : clock.duration();
   const double begin = from.value_or(0.0);
   const double end = to.value_or(duration);
   if (!(begin >= 0.0) || !std::isfinite(begin))
@@ -38,7 +38,11 @@ Schedule::Schedule(const Clock& clock, std::optional<double> from, std::optional
   if (fps && !(std::isfinite(*fps) && *fps > 0.0))
     throw Error(ExitCode::BadInput, fmt::format("--fps {} is not a number above 0", *fps));
 
-  if (clock.isFixed()) {
+  if (film_ != nullptr) {
+    fps_ = film_->fps;
+    first_ = std::max<std::int64_t>(framesIn(begin, fps_), 0);
+    frames_ = std::min(framesIn(end, fps_), film_->map->frames()) - first_;
+  } else if (clock.isFixed()) {
     fps_ = clock.fps();
     first_ = std::max<std::int64_t>(framesIn(begin, fps_), 0);
     frames_ = std::min(framesIn(end, fps_), clock.steps()) - first_;
@@ -59,13 +63,25 @@ Schedule::Schedule(const Clock& clock, std::optional<double> from, std::optional
   }
   if (frames_ <= 0)
     throw Error(ExitCode::BadInput, fmt::format("no frame lies between {} s and {} s", begin, end));
-  endNs_ = to ? nanosecondsOf(end) : clock.nanoseconds(clock.steps());
+  endNs_ = to || film_ != nullptr ? nanosecondsOf(end) : clock.nanoseconds(clock.steps());
+}
+
+double Schedule::origin() const {
+  if (film_ != nullptr || clock_.isFixed()) return static_cast<double>(first_) / fps_;
+  return static_cast<double>(originNs_) / 1e9;
+}
+
+Shot Schedule::shot(std::int64_t index) const {
+  if (film_ != nullptr) return {film_->moment(first_ + index), static_cast<double>(first_ + index) / fps_};
+  if (clock_.isFixed()) return {{first_ + index, 0.0}, clock_.time(first_ + index)};
+  if (fps_ == 0.0) return {{first_ + index, 0.0}, std::max(clock_.time(first_ + index), origin())};
+  const double time = origin_ + static_cast<double>(index) / fps_;
+  // A frame that is due within the rounding of its own time counts as due.
+  return {{std::min(clock_.frameAt(time + 1e-9), clock_.steps()), 0.0}, time};
 }
 
 std::int64_t Schedule::simulated(std::int64_t index) const {
-  if (clock_.isFixed() || fps_ == 0.0) return first_ + index;
-  // A frame that is due within the rounding of its own time counts as due.
-  return std::min(clock_.frameAt(origin_ + static_cast<double>(index) / fps_ + 1e-9), clock_.steps());
+  return shot(index).moment.frame;
 }
 
 std::int64_t Schedule::startOf(std::int64_t index) const {
@@ -84,7 +100,8 @@ double Schedule::seconds() const {
 }
 
 Schedule scheduleOf(const Source& source, const RenderOptions& options) {
-  return {source.clock(), options.from, options.to, source.clock().isFixed() ? std::nullopt : options.fps};
+  return {source.clock(), options.from, options.to, source.clock().isFixed() ? std::nullopt : options.fps,
+          source.film()};
 }
 
 } // namespace offstage

@@ -4,7 +4,6 @@
 #include "src/sim/error.h"
 
 #include <cmath>
-#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -14,18 +13,29 @@ namespace {
 
 constexpr double kRounding = 1e-9; ///< s: a moment that is a frame's time up to rounding is meant to be it
 
-void requireWithin(const Clock& clock, double at) {
-  if (at >= 0.0 && at <= clock.duration() + kRounding) return;
-  throw Error(ExitCode::BadInput,
-              fmt::format("--at {} does not lie within the scene's 0 … {} s", at, clock.duration()));
-}
-
 } // namespace
 
+double videoSeconds(const Source& source) {
+  return source.film() != nullptr ? source.film()->seconds : source.clock().duration();
+}
+
+Shot shotAt(const Source& source, double at) {
+  const Film* film = source.film();
+  const bool retimed = film != nullptr && film->map;
+  const double end = videoSeconds(source);
+  if (!(at >= 0.0 && at <= end + kRounding))
+    throw Error(ExitCode::BadInput, fmt::format("--at {} does not lie within the {}'s 0 … {} s", at,
+                                                retimed ? "video" : "scene", end));
+  if (!retimed) {
+    const std::int64_t frame = source.clock().frameAt(at + kRounding);
+    return {{frame, 0.0}, source.clock().time(frame)};
+  }
+  const auto frame = static_cast<std::int64_t>(std::floor((at + kRounding) * film->fps));
+  return {film->moment(frame), static_cast<double>(frame) / film->fps};
+}
+
 Frame drawFrame(Source& source, double at) {
-  requireWithin(source.clock(), at);
-  const std::int64_t wanted = source.clock().frameAt(at + kRounding);
-  while (source.frame() < wanted) source.step();
+  source.show(shotAt(source, at));
   Picture picture;
   source.draw(picture);
   Canvas canvas(picture.width, picture.height);
@@ -35,23 +45,14 @@ Frame drawFrame(Source& source, double at) {
 }
 
 Still drawStill(SceneSource& source, double at, int strobe) {
-  const Clock& clock = source.clock();
-  requireWithin(clock, at);
-
-  Picture picture;
-  source.painter().begin(picture);
-  std::unordered_map<std::uint32_t, Vec2> drawnAt; // last drawn position by body
+  // Moments from the video's beginning to `at`, later ones on top.
   for (int moment = 0; moment < strobe; ++moment) {
     const double share = strobe == 1 ? 1.0 : static_cast<double>(moment) / static_cast<double>(strobe - 1);
-    const std::int64_t frame = clock.frameAt(at * share + kRounding);
-    while (source.frame() < frame) source.step();
-    for (const Body& body : source.bodies()) {
-      const auto [place, isNew] = drawnAt.try_emplace(body.id, body.position);
-      if (!isNew && place->second == body.position) continue;
-      place->second = body.position;
-      source.painter().body(picture, body, body.look);
-    }
+    source.show(shotAt(source, at * share));
+    if (strobe > 1) source.keepMoment();
   }
+  Picture picture;
+  source.draw(picture);
 
   Still still;
   still.alpha = picture.background.a != 255;

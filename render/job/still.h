@@ -13,13 +13,19 @@ struct Still {
 
 constexpr int kMaxStrobe = 1000;
 
-/// Draws the frame on show at `at` seconds and leaves `source` there. With `strobe` = N > 1 the picture holds
-/// N moments, equally spaced from 0 to `at`, later ones on top; a body that has not moved since the moment
-/// before is drawn once. Throws Error(BadInput) when `at` lies outside the scene's clock. `source` must be at
-/// frame 0.
+/// What a source's video shows at `at` seconds of the video: the frame that begins then or before. Throws
+/// Error(BadInput) when `at` lies outside the video.
+Shot shotAt(const Source& source, double at);
+
+/// How long (s) a source's whole video is.
+double videoSeconds(const Source& source);
+
+/// Draws the frame on show at `at` seconds of the video and leaves `source` there. With `strobe` = N > 1 the
+/// picture holds N moments of the bodies, equally spaced from 0 to `at`, later ones on top; a body that has
+/// not moved since the moment before is drawn once. Throws as shotAt(). `source` must be at frame 0.
 Still drawStill(SceneSource& source, double at, int strobe = 1);
 
-/// The frame on show at `at` seconds of any source, and leaves it there. Throws as drawStill().
+/// The frame on show at `at` seconds of any source, and leaves it there. Throws as shotAt().
 Frame drawFrame(Source& source, double at);
 
 } // namespace offstage

@@ -1,12 +1,14 @@
 #pragma once
 
 #include "render/output/sink.h"
+#include "render/output/tracks.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace offstage {
 
@@ -50,6 +52,15 @@ public:
   /// Makes the output of its chunks, in order, checks it, and only then gives it its name. Nothing is encoded
   /// again. `frames` is how many frames were handed in. Returns the output's bytes.
   virtual std::int64_t join(std::span<const std::filesystem::path> chunks, std::int64_t frames) = 0;
+
+  /// What join() puts beside the pictures, as far as the format can hold it.
+  void setTracks(VideoTracks tracks) { tracks_ = std::move(tracks); }
+
+protected:
+  [[nodiscard]] const VideoTracks& tracks() const { return tracks_; }
+
+private:
+  VideoTracks tracks_;
 };
 
 /// The output that `out`'s ending asks for (outputKind): H.264 in .mp4 .mkv .mov, VP9 in .webm, ProRes 4444

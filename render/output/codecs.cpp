@@ -1,5 +1,6 @@
 #include "render/output/codecs.h"
 
+#include "render/output/sound_encoder.h"
 #include "render/output/video_codec.h"
 
 #include <fmt/format.h>
@@ -25,6 +26,11 @@ std::vector<CodecStatus> codecStatus() {
   for (const CodecTraits& traits : allCodecs())
     codecs.push_back({traits.encoder, traits.purpose, traits.package,
                       avcodec_find_encoder_by_name(traits.encoder) != nullptr});
+  for (const SoundCodec codec : {SoundCodec::Aac, SoundCodec::Opus}) {
+    const SoundCodecTraits& traits = traitsOf(codec);
+    codecs.push_back({traits.encoder, traits.purpose, traits.package,
+                      avcodec_find_encoder_by_name(traits.encoder) != nullptr});
+  }
   return codecs;
 }
 

@@ -1,6 +1,7 @@
 #include "render/output/muxer.h"
 
 #include "render/output/file_error.h"
+#include "render/output/side_streams.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -17,6 +18,7 @@ constexpr int kBufferSize = 1 << 16;
 /// libavformat's .mkv and .webm count in milliseconds.
 constexpr AVRational kMatroskaTick{1, 1000};
 constexpr AVRational kMicrosecond{1, 1000000};
+constexpr AVRational kNanosecond{1, 1000000000};
 /// The coarsest timescale that libavformat chooses for .mp4 by itself; finer ones serve players that compute
 /// in it.
 constexpr int kLeastTimescale = 10000;
@@ -81,10 +83,15 @@ Muxer::Muxer(AtomicFile& file, const MuxerSettings& settings, const AVCodecParam
   stream_->time_base = settings.timeBase;
   stream_->avg_frame_rate = settings.frameRate;
   stream_->sample_aspect_ratio = stream.sample_aspect_ratio;
+  sides_ = std::make_unique<SideStreams>(settings.container, settings.tracks, stream.width, stream.height);
+  sides_->addTo(*format_);
   if (!settings.title.empty()) av_dict_set(&format_->metadata, "title", settings.title.c_str(), 0);
 
   libav::Options options;
   if (isMatroska(settings.container)) {
+    // Opus begins with a run-up before time 0, which the container has a field for; without this libavformat
+    // moves the pictures behind it.
+    format_->avoid_negative_ts = 0;
     options.set("cues_to_front", "1");
   } else {
     const std::string scale = std::to_string(timescaleOf(settings.timeBase));
@@ -96,6 +103,8 @@ Muxer::Muxer(AtomicFile& file, const MuxerSettings& settings, const AVCodecParam
   require(avformat_write_header(format_.get(), options.get()), "cannot write the video's header");
   options.requireAllTaken();
 }
+
+Muxer::~Muxer() = default;
 
 int Muxer::writeBytes(void* self, std::uint8_t* data, int size) {
   auto* muxer = static_cast<Muxer*>(self);
@@ -149,9 +158,11 @@ void Muxer::writePending() {
   // Rounded so that a frame ends where the next begins, in a container whose tick is coarser than the time
   // base too.
   const std::int64_t end = av_rescale_q(packet.pts + packet.duration, timeBase_, stream_->time_base);
+  const std::int64_t time = av_rescale_q(packet.dts, timeBase_, kNanosecond);
   packet.pts = av_rescale_q(packet.pts, timeBase_, stream_->time_base);
   packet.dts = av_rescale_q(packet.dts, timeBase_, stream_->time_base);
   packet.duration = end - packet.pts;
+  require(sides_->writeUntil(*format_, time), "libavformat refuses a packet of a track");
   const int result = av_write_frame(format_.get(), &packet);
   av_packet_unref(&packet);
   require(result, "libavformat refuses a packet");
@@ -169,6 +180,7 @@ void Muxer::finish() {
     endPending();
     writePending();
   }
+  require(sides_->writeRest(*format_), "libavformat refuses a packet of a track");
   require(av_write_trailer(format_.get()), "cannot write the video's index");
   avio_flush(io_.get());
   require(io_->error, "cannot write the video's end");

@@ -2,15 +2,19 @@
 
 #include "render/output/atomic_file.h"
 #include "render/output/libav.h"
+#include "render/output/tracks.h"
 
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <queue>
 #include <string>
 #include <vector>
 
 namespace offstage {
+
+class SideStreams;
 
 enum class Container { Mp4, Mov, Matroska, WebM };
 
@@ -21,23 +25,24 @@ AVRational variableTimeBase(Container container);
 /// Whether frames of this constant rate keep distinct timestamps in the container.
 bool holdsFrameRate(Container container, AVRational framesPerSecond);
 
-/// Describes the one stream of a file.
+/// Describes a file.
 struct MuxerSettings {
   Container container = Container::Mp4;
   AVRational timeBase{0, 1};  ///< s: of the packets' timestamps
   AVRational frameRate{0, 1}; ///< 1/s; 0/1 when it is variable
   std::string title;          ///< metadata; may be empty
+  VideoTracks tracks{};       ///< what stands beside the pictures
 };
 
-/// Writes packets of one video stream into a file. The bytes depend only on the arguments and libavformat's
-/// version: no date, no random identifier. The index stands before the pictures (moov before mdat, cues at
-/// the front), so a player can start before it has the whole file.
+/// Writes packets of a video stream, and the tracks beside it, into a file. The bytes depend only on the
+/// arguments and libavformat's version: no date, no random identifier. The index stands before the pictures
+/// (moov before mdat, cues at the front), so a player can start before it has the whole file.
 class Muxer {
 public:
   /// Writes the header. The file must be empty. Throws Error as AtomicFile::write, and Error(Environment)
   /// when libavformat lacks the container.
   Muxer(AtomicFile& file, const MuxerSettings& settings, const AVCodecParameters& stream);
-  ~Muxer() = default;
+  ~Muxer();
   Muxer(const Muxer&) = delete;
   Muxer& operator=(const Muxer&) = delete;
 
@@ -67,6 +72,7 @@ private:
   AtomicFile& file_;
   libav::IoContext io_; ///< outlives format_, which writes to it
   libav::OutputContext format_;
+  std::unique_ptr<SideStreams> sides_;
   AVStream* stream_ = nullptr;
   AVRational timeBase_;
   libav::Packet pending_; ///< the packet that came last: how long it lasts depends on whether another follows

@@ -61,6 +61,11 @@ OutputKind outputKind(const std::filesystem::path& out) {
   return entry->second;
 }
 
+bool holdsSound(OutputKind kind) {
+  return kind == OutputKind::Mp4 || kind == OutputKind::Mov || kind == OutputKind::Matroska ||
+         kind == OutputKind::WebM;
+}
+
 bool isStream(OutputKind kind) {
   return kind == OutputKind::RawPipe || kind == OutputKind::RawFile;
 }

@@ -24,6 +24,9 @@ enum class OutputKind : std::uint8_t {
 /// without a place for a number.
 OutputKind outputKind(const std::filesystem::path& out);
 
+/// Videos hold sound; all others show only.
+bool holdsSound(OutputKind kind);
+
 /// Raw outputs are written front to back by one process; all others are made in chunks.
 bool isStream(OutputKind kind);
 

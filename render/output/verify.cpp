@@ -1,6 +1,7 @@
 #include "render/output/verify.h"
 
 #include "render/output/file_error.h"
+#include "render/output/input_file.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -22,10 +23,8 @@ namespace {
 constexpr AVRational kLibavTick{1, AV_TIME_BASE};
 /// The coarsest unit of the containers: .mkv's.
 constexpr AVRational kMillisecond{1, 1000};
-
-struct CloseInput {
-  void operator()(AVFormatContext* context) const { avformat_close_input(&context); }
-};
+/// s: the longest packet of the sound codecs (AAC: 1024 samples at 48 kHz), and a millisecond.
+constexpr double kSoundPacket = 0.0225;
 
 /// libav's names may be null for numbers that it does not know.
 std::string_view nameOr(const char* name) {
@@ -37,14 +36,9 @@ public:
   Verifier(const std::filesystem::path& file, const ExpectedVideo& expected,
            const std::filesystem::path& name)
       : expected_(expected), name_(name), packet_(libav::makePacket()), frame_(libav::makeFrame()) {
-    libav::quietLog();
-    const std::string url = "file:" + file.native();
-    AVFormatContext* format = nullptr;
-    check(avformat_open_input(&format, url.c_str(), nullptr, nullptr), "it cannot be opened again");
-    format_.reset(format);
+    check(libav::openInput(file, format_), "it cannot be opened again");
     // avformat_find_stream_info() would decode up to twenty frames to guess what the decoder tells us anyway.
-    if (format->nb_streams != 1) fail(fmt::format("it has {} streams instead of 1", format->nb_streams));
-    stream_ = format->streams[0];
+    findStream();
     openDecoder();
   }
 
@@ -56,6 +50,21 @@ public:
   }
 
 private:
+  /// The one video stream; the others are not read (verifyTracks).
+  void findStream() {
+    int videos = 0;
+    for (unsigned i = 0; i < format_->nb_streams; ++i) {
+      AVStream& stream = *format_->streams[i];
+      const bool isVideo = stream.codecpar->codec_type == AVMEDIA_TYPE_VIDEO;
+      if (isVideo)
+        stream_ = &stream;
+      else
+        stream.discard = AVDISCARD_ALL;
+      videos += isVideo ? 1 : 0;
+    }
+    if (videos != 1) fail(fmt::format("it has {} video streams instead of 1", videos));
+  }
+
   void openDecoder() {
     const AVCodec* codec = avcodec_find_decoder(stream_->codecpar->codec_id);
     if (codec == nullptr) {
@@ -103,7 +112,8 @@ private:
     compare("pixel format", nameOr(av_get_pix_fmt_name(decoder_->pix_fmt)),
             std::string_view(av_get_pix_fmt_name(traits.read)));
     compareColour(*decoder_, traits);
-    compareTime("duration", format_->duration, kLibavTick, expected_.end);
+    compareTime("duration", format_->duration, kLibavTick, expected_.end,
+                expected_.hasSound ? kSoundPacket : 0.0);
   }
 
   void compareColour(const AVCodecContext& found, const CodecTraits& traits) {
@@ -119,8 +129,10 @@ private:
               std::string_view("left"));
   }
 
-  void compareTime(std::string_view what, std::int64_t found, AVRational foundBase, std::int64_t wanted) {
-    const double tolerance = std::max({av_q2d(foundBase), av_q2d(stream_->time_base), av_q2d(kMillisecond)});
+  void compareTime(std::string_view what, std::int64_t found, AVRational foundBase, std::int64_t wanted,
+                   double atLeast = 0.0) {
+    const double tolerance =
+        std::max({av_q2d(foundBase), av_q2d(stream_->time_base), av_q2d(kMillisecond), atLeast});
     const double difference = static_cast<double>(found) * av_q2d(foundBase) -
                               static_cast<double>(wanted) * av_q2d(expected_.timeBase);
     if (std::abs(difference) <= tolerance * (1.0 + 1e-6))
@@ -163,11 +175,15 @@ private:
     if (lastDecoded_ != lastStart_) fail("its last frame does not decode");
   }
 
+  /// The next packet of the video.
   bool readPacket() {
-    const int result = av_read_frame(format_.get(), packet_.get());
-    if (result == AVERROR_EOF) return false;
-    check(result, "it cannot be read to the end");
-    return true;
+    while (true) {
+      const int result = av_read_frame(format_.get(), packet_.get());
+      if (result == AVERROR_EOF) return false;
+      check(result, "it cannot be read to the end");
+      if (packet_->stream_index == stream_->index) return true;
+      av_packet_unref(packet_.get());
+    }
   }
 
   /// Whether a frame came out. A null packet asks for what the decoder still holds.
@@ -187,7 +203,7 @@ private:
 
   const ExpectedVideo& expected_;
   const std::filesystem::path& name_;
-  std::unique_ptr<AVFormatContext, CloseInput> format_;
+  libav::InputContext format_;
   AVStream* stream_ = nullptr;
   libav::CodecContext decoder_;
   libav::Packet packet_;

@@ -17,6 +17,7 @@ struct ExpectedVideo {
   AVRational timeBase{0, 1};  ///< s: the unit of the two times
   std::int64_t lastStart = 0; ///< when the last frame begins; the first begins at 0
   std::int64_t end = 0;       ///< when the last frame ends
+  bool hasSound = false;      ///< the file may last a packet of sound longer
 };
 
 /// Reopens a video file, reads all of it, decodes its first and its last frame, and compares what it finds

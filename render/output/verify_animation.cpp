@@ -1,7 +1,7 @@
 #include "render/output/verify_animation.h"
 
 #include "render/output/file_error.h"
-#include "render/output/libav.h"
+#include "render/output/input_file.h"
 
 #include <string>
 #include <string_view>
@@ -10,10 +10,6 @@
 
 namespace offstage {
 namespace {
-
-struct CloseInput {
-  void operator()(AVFormatContext* context) const { avformat_close_input(&context); }
-};
 
 [[noreturn]] void fail(const std::filesystem::path& name, std::string_view why) {
   throw Error(ExitCode::Transient, fmt::format("the check of the finished {} failed: {}", quoted(name), why));
@@ -28,11 +24,9 @@ bool decodes(AVCodecContext& decoder, const AVPacket& packet) {
 
 void verifyAnimation(const std::filesystem::path& file, const ExpectedAnimation& expected,
                      const std::filesystem::path& name) {
-  libav::quietLog();
-  AVFormatContext* opened = nullptr;
-  if (avformat_open_input(&opened, ("file:" + file.native()).c_str(), nullptr, nullptr) < 0)
-    fail(name, "it cannot be opened again");
-  const std::unique_ptr<AVFormatContext, CloseInput> format(opened);
+  libav::InputContext format;
+  if (libav::openInput(file, format) < 0) fail(name, "it cannot be opened again");
+  AVFormatContext* const opened = format.get();
   if (avformat_find_stream_info(opened, nullptr) < 0 || opened->nb_streams != 1)
     fail(name, "its stream is not recognised");
   const AVCodecParameters& stream = *opened->streams[0]->codecpar;

@@ -5,6 +5,7 @@
 #include "render/output/frame_check.h"
 #include "render/output/packet_record.h"
 #include "render/output/verify.h"
+#include "render/output/verify_tracks.h"
 #include "render/output/yuv.h"
 
 #include <algorithm>
@@ -168,6 +169,7 @@ std::int64_t VideoOutput::join(std::span<const std::filesystem::path> chunks, st
   muxerSettings.timeBase = settings_.timeBase;
   if (format_.fps > 0.0) muxerSettings.frameRate = settings_.frameRate;
   muxerSettings.title = format_.title;
+  muxerSettings.tracks = tracks();
   Muxer muxer(file, muxerSettings, VideoEncoder(settings_).parameters());
 
   ExpectedVideo expected;
@@ -193,7 +195,9 @@ std::int64_t VideoOutput::join(std::span<const std::filesystem::path> chunks, st
   muxer.finish();
   // Of a variable rate, frames that are never seen have no packet.
   expected.frames = format_.fps > 0.0 ? frames : packets;
+  expected.hasSound = tracks().sound != nullptr;
   verifyVideo(file.temporary(), expected, path_);
+  verifyTracks(file.temporary(), container_, tracks(), path_);
   file.commit();
   return muxer.bytesWritten();
 }

@@ -26,7 +26,8 @@ void requireSize(int width, int height, int most) {
                                               width, height, most));
 }
 
-/// About how many pixels a changed layer damages: of a large one that moved a little, those near its edge.
+/// About how many pixels a changed layer damages: of a large one that moved a little, those near its edge; of
+/// a line, those near it.
 std::int64_t touchedPixels(const DisplayList& list, std::int32_t index) {
   if (index < 0) return 0;
   constexpr std::int64_t kEdge = 2 * TileSet::kTile;
@@ -34,8 +35,11 @@ std::int64_t touchedPixels(const DisplayList& list, std::int32_t index) {
       list.layers[static_cast<std::size_t>(index)].bounds(); // empty when it is not visible
   const std::int64_t width = bounds.right - bounds.left;
   const std::int64_t height = bounds.bottom - bounds.top;
-  const bool plain = isPlain(list.primitives[static_cast<std::size_t>(index)]);
-  return plain ? std::min(width * height, 2 * (width + height) * kEdge) : width * height;
+  const Primitive& primitive = list.primitives[static_cast<std::size_t>(index)];
+  using Kind = Primitive::Kind;
+  const bool narrow = isPlain(primitive) || primitive.kind >= Kind::Quad || primitive.kind == Kind::Ring ||
+                      primitive.kind == Kind::BoxRing; // lines
+  return narrow ? std::min(width * height, 2 * (width + height) * kEdge) : width * height;
 }
 
 std::uint64_t nextDrawing() {

@@ -3,6 +3,8 @@
 #include "render/draw/picture.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace offstage {
@@ -20,9 +22,14 @@ class CoverTest {
 public:
   explicit CoverTest(const Primitive& primitive);
 
-  [[nodiscard]] Cover of(const PixelRect& rect) const { return round_ ? ofCircle(rect) : ofBox(rect); }
+  [[nodiscard]] Cover of(const PixelRect& rect) const {
+    if (outline_ == Outline::Circle) return ofCircle(rect);
+    return outline_ == Outline::Box ? ofBox(rect) : ofPath(rect);
+  }
 
 private:
+  enum class Outline : std::uint8_t { Circle, Box, Path };
+
   /// A rectangle that is open at its edges.
   struct Bounds {
     double left, top, right, bottom; ///< px
@@ -34,6 +41,7 @@ private:
       return rect.left >= left && rect.right <= right && rect.top >= top && rect.bottom <= bottom;
     }
   };
+  static Bounds nowhere();
   static Bounds boundsOf(const Vec2& low, const Vec2& high, double grown);
 
   [[nodiscard]] Cover ofCircle(const PixelRect& rect) const {
@@ -58,7 +66,11 @@ private:
     return boxInside_.holds(rect) && !(holed_ && boxRim_.touches(rect)) ? Cover::Whole : Cover::Some;
   }
 
-  bool round_;
+  /// Of paths and polygons only None is told: they are thin, and seldom hide anything.
+  [[nodiscard]] Cover ofPath(const PixelRect& rect) const;
+  void setPath(const Primitive& primitive);
+
+  Outline outline_ = Outline::Box;
   double x_ = 0.0, y_ = 0.0; ///< px: a circle's centre
   double outside_ = 0.0;     ///< px²: farther than this there is nothing of the circle
   double inside_ = 0.0;      ///< px²: nearer than this, it has no outer edge
@@ -66,6 +78,11 @@ private:
   double hole_ = 0.0;        ///< px²: nearer than this is its hole
   bool holed_ = false;       ///< the box has a hole
   Bounds boxOutside_{}, boxInside_{}, boxRim_{}, boxHole_{};
+  // Of a path or polygon: it lies within reach_ of the path through these points. A quadrilateral lies
+  // inside its corners' edges instead.
+  std::array<Vec2, 4> points_{};
+  std::size_t arms_ = 0; ///< of the path; 0: a quadrilateral
+  double reach_ = 0.0;   ///< px
 };
 
 /// True when the primitive hides what is below it wherever it covers a pixel wholly, and looks the same in

@@ -13,13 +13,14 @@ namespace {
 struct Side {
   const Primitive* primitive = nullptr; ///< null: there was, or is, nothing to be seen
   PixelRect bounds;
+  PixelRect clip;
 };
 
 Side sideOf(const DisplayList& list, std::int32_t index) {
   if (index < 0) return {};
   const auto i = static_cast<std::size_t>(index);
   if (!list.layers[i].visible) return {};
-  return {&list.primitives[i], list.layers[i].bounds()};
+  return {&list.primitives[i], list.layers[i].bounds(), list.layers[i].clip};
 }
 
 PixelRect united(const PixelRect& a, const PixelRect& b) {
@@ -59,9 +60,16 @@ public:
 private:
   enum class Verdict : std::uint8_t { Untouched, Hidden, Changed, Mixed };
 
+  /// What lies beyond the clip is not covered, so a rectangle that it cuts is never covered wholly.
+  static Cover coverOf(const std::optional<CoverTest>& test, const Side& side, const PixelRect& rect) {
+    if (!test) return Cover::None;
+    const Cover cover = test->of(rect);
+    return cover == Cover::Whole && !holds(side.clip, rect) ? Cover::Some : cover;
+  }
+
   [[nodiscard]] Verdict judge(const PixelRect& rect) const {
-    const Cover before = coverBefore_ ? coverBefore_->of(rect) : Cover::None;
-    const Cover after = coverAfter_ ? coverAfter_->of(rect) : Cover::None;
+    const Cover before = coverOf(coverBefore_, before_, rect);
+    const Cover after = coverOf(coverAfter_, after_, rect);
     if (before == Cover::Some || after == Cover::Some) return Verdict::Mixed;
     if (before == Cover::None && after == Cover::None) return Verdict::Untouched;
     if (before != after || !sameColor_) return Verdict::Changed;
@@ -129,13 +137,18 @@ void hideUnder(const DisplayList& list, std::size_t index, TileSet& tiles) {
       if (cell == 0) continue;
       const PixelRect place = TileSet::cellBounds(column, row);
       const Cover cover = test.of(place);
-      if (cover == Cover::Whole) cell = 0;
-      if (cover != Cover::Some) continue;
+      const PixelRect& clip = list.layers[index].clip;
+      if (cover == Cover::None) continue;
+      if (cover == Cover::Whole && holds(clip, place)) {
+        cell = 0;
+        continue;
+      }
       for (std::uint64_t rest = cell; rest != 0; rest &= rest - 1) {
         const int bit = std::countr_zero(rest);
         const int left = place.left + bit % 8 * kTile;
         const int top = place.top + bit / 8 * kTile;
-        if (test.of({left, top, left + kTile, top + kTile}) == Cover::Whole) {
+        const PixelRect tile{left, top, left + kTile, top + kTile};
+        if (holds(clip, tile) && test.of(tile) == Cover::Whole) {
           cell &= ~(std::uint64_t{1} << static_cast<unsigned>(bit));
         }
       }

@@ -4,8 +4,10 @@
 #include "render/raster/instance.h"
 #include "render/raster/pattern_texture.h"
 #include "render/raster/shader_sources.h"
+#include "render/raster/tile_set.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace offstage {
@@ -14,6 +16,7 @@ namespace offstage {
 struct Layer {
   Instance instance;
   ProgramKind program{};
+  PixelRect clip;       ///< px: it is painted inside it only
   bool visible = false; ///< false: it touches no pixel, and nothing else here has a meaning
 
   [[nodiscard]] PixelRect bounds() const { ///< px that it may touch
@@ -27,7 +30,14 @@ struct DisplayList {
   PixelRect clip; ///< inside the canvas
   std::vector<Primitive> primitives;
   std::vector<PlacedPattern> patterns;
+  std::vector<PixelRect> clips;
+  std::vector<std::shared_ptr<const Mask>> masks;
   std::vector<Layer> layers; ///< one a primitive
+
+  /// What a primitive is painted inside of: `clip`, and its own where it has one.
+  [[nodiscard]] PixelRect clipOf(const Primitive& primitive) const {
+    return primitive.clip < 0 ? clip : common(clip, clips.at(static_cast<std::size_t>(primitive.clip)));
+  }
 };
 
 /// How one layer differs between two display lists.

@@ -1,4 +1,4 @@
-#include "render/raster/instance.h"
+#include "render/raster/instance_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,21 +14,6 @@ constexpr double kFar = 1e6;
 
 /// 1/px; a curvature of 0 says that there is no edge, and a float cannot hold that of the largest doubles.
 constexpr double kLeastCurvature = 1e-30;
-
-/// The pixels that low…high touches inside `clip`. Comparisons are written so that NaN gives none.
-PixelRect touchedPixels(const Vec2& low, const Vec2& high, const PixelRect& clip) {
-  if (!(low.x() < clip.right && low.y() < clip.bottom && high.x() > clip.left && high.y() > clip.top)) {
-    return {};
-  }
-  const auto first = [](double value, int limit) {
-    return static_cast<int>(std::floor(std::max(value, static_cast<double>(limit))));
-  };
-  const auto last = [](double value, int limit) {
-    return static_cast<int>(std::ceil(std::min(value, static_cast<double>(limit))));
-  };
-  return {first(low.x(), clip.left), first(low.y(), clip.top), last(high.x(), clip.right),
-          last(high.y(), clip.bottom)};
-}
 
 /// The pixel corner inside `clip` that is nearest to a point.
 std::array<std::int16_t, 2> nearestPixelCorner(const Vec2& point, const PixelRect& clip) {
@@ -98,19 +83,11 @@ void setBox(const Primitive& primitive, const PixelRect& bounds, Drawable& drawa
   drawable.coverage = Coverage::Box;
 }
 
-/// The bounds, made square where a point can draw them: a circle's bounds differ by at most one pixel in
-/// width and height, and what is added lies outside the circle unless the clip has cut the bounds.
-Footprint chooseFootprint(PixelRect& bounds, const PixelRect& clip, int largestPoint) {
-  const int width = bounds.right - bounds.left;
-  const int height = bounds.bottom - bounds.top;
-  const int side = std::max(width, height);
-  const PixelRect square{bounds.left, bounds.top, bounds.left + side, bounds.top + side};
-  if (std::min(width, height) < side - 1 || side > largestPoint || square.right > clip.right ||
-      square.bottom > clip.bottom) {
-    return Footprint::Quad;
-  }
-  bounds = square;
-  return Footprint::Point;
+/// Bounds and mask stand on whole pixels, so the mask's corner is the origin.
+void setMask(const Primitive& primitive, Drawable& drawable) {
+  drawable.instance.origin = {static_cast<std::int16_t>(primitive.low.x()),
+                              static_cast<std::int16_t>(primitive.low.y())};
+  drawable.coverage = Coverage::Mask;
 }
 
 } // namespace
@@ -119,24 +96,23 @@ std::optional<Drawable> makeDrawable(const Primitive& primitive, const PixelRect
   using Kind = Primitive::Kind;
   const bool round = primitive.kind == Kind::Disc || primitive.kind == Kind::Ring;
   if (primitive.color.a == 0) return std::nullopt;
+  if (primitive.kind >= Kind::Quad) return makePathDrawable(primitive, clip, largestPoint);
   if (round && !(primitive.outer >= kInvisibleRadius && std::isfinite(primitive.outer))) return std::nullopt;
   const Vec2 reach(primitive.outer, primitive.outer);
   const Vec2 low = round ? Vec2(primitive.center - reach) : primitive.low;
   const Vec2 high = round ? Vec2(primitive.center + reach) : primitive.high;
-  PixelRect bounds = touchedPixels(low, high, clip);
+  const PixelRect bounds = touchedPixels(low, high, clip);
   if (bounds.empty()) return std::nullopt;
 
   Drawable drawable{};
   if (round) {
     setCircle(primitive, clip, drawable);
+  } else if (primitive.kind == Kind::Mask) {
+    setMask(primitive, drawable);
   } else {
     setBox(primitive, bounds, drawable);
   }
-  drawable.footprint = chooseFootprint(bounds, clip, largestPoint);
-  Instance& instance = drawable.instance;
-  instance.quad = {static_cast<std::uint16_t>(bounds.left), static_cast<std::uint16_t>(bounds.top),
-                   static_cast<std::uint16_t>(bounds.right), static_cast<std::uint16_t>(bounds.bottom)};
-  instance.color = {primitive.color.r, primitive.color.g, primitive.color.b, primitive.color.a};
+  finish(primitive, bounds, clip, largestPoint, drawable);
   return drawable;
 }
 

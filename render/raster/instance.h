@@ -16,10 +16,15 @@ enum class Coverage : std::uint8_t {
   LargeCircle,  ///< a disc or ring of kLeastArcRadius or more
   AnyCircle,    ///< a disc or ring of any radii
   Box,          ///< a rectangle, with or without a rectangular hole
+  Quad,         ///< a polygon of four corners
+  Arrow,        ///< a polygon of seven corners
+  Strip,        ///< a straight piece of a path
+  Elbow,        ///< a bent or round-ended piece of a path
   DiscOnGround, ///< a Disc laid over one known opaque colour, which it replaces without blending
   Whole, ///< every pixel wholly: what was there is replaced by Instance::color as it is, without blending
+  Mask,  ///< a texel of the store a pixel
 };
-inline constexpr std::size_t kCoverageCount = 7;
+inline constexpr std::size_t kCoverageCount = 12;
 
 /// From this radius on, the edge inside a pixel is taken as the parabola that osculates it, and integrated
 /// over four columns. Measured error against the exact area: at most 2.5/255.
@@ -42,13 +47,19 @@ struct Instance {
   /// digit is at most 0.0005 px there. With D = origin − centre, LargeCircle, AnyCircle: {n.x, n.y, 1/r, c}
   /// with n = D/r, c = (|D|² − r²)/(2r), so that g(p) = c + p·n + |p|²/(2r) is a pixel's distance from the
   /// edge to first order (positive outside), with no large numbers cancelling however large r is; Box:
-  /// {low.x, low.y, high.x, high.y} from the origin.
+  /// {low.x, low.y, high.x, high.y} from the origin. Quad, Arrow: two corners from the origin; the further
+  /// ones in `inner`, `texelMap` and `window`. Strip: {n.x, n.y, c, half width}: n·p + c is the distance from
+  /// the line's middle, p from the frame's upper-left corner. Elbow: {from, corner} from the origin, x and y
+  /// exchanged where inner[3] is 1.
   std::array<float, 4> outer{};
   /// The hole, in the same form; a box without one has low = high. DiscOnGround: r, g, b of the ground (0 …
-  /// 255).
+  /// 255). Elbow: {to, half width, 1 if x and y are exchanged}.
   std::array<float, 4> inner{};
-  std::array<std::int32_t, 4> texels{}; ///< pattern: first texel in the store, width, height, 1 if it repeats
-  std::array<float, 4> texelMap{};      ///< pattern: texel coordinate at `origin`, then texels per px
+  /// pattern: first texel in the store, width, height, 1 if it repeats; mask: first texel, width, height, 0
+  std::array<std::int32_t, 4> texels{};
+  /// Pattern: texel coordinate at `origin`, then texels per px. Strip, Elbow: the first cut {n.x, n.y, c},
+  /// then the second one's n.x: a pixel's centre p is in front of a cut where n.x·p.x + n.y·p.y + c ≥ 0.
+  std::array<float, 4> texelMap{};
   std::array<float, 2> window{1.0F, 1.0F}; ///< pattern: texels to average along each axis, 1 … 2
 };
 

@@ -21,10 +21,6 @@ double cost(const ProgramKind& program, const PixelRect& rect) {
          pixels * (program.coverage == Coverage::Whole ? kWholePixelCost : kBlendedPixelCost);
 }
 
-bool holds(const PixelRect& outer, const PixelRect& inner) {
-  return common(outer, inner) == inner;
-}
-
 Instance wholeInstance(Rgba8 premultiplied) {
   Instance instance;
   instance.color = {premultiplied.r, premultiplied.g, premultiplied.b, premultiplied.a};
@@ -72,7 +68,7 @@ bool PartialRedraw::collect(const DisplayList& list, const TileSet& tiles, const
     const ProgramKind& program = list.layers[hit.layer].program;
     return target.groundIsExact && square.lowest == kBackground && square.above == 1 &&
            program.coverage == Coverage::Disc && program.paint == PaintSource::Color &&
-           holds(list.clip, square.rect);
+           holds(list.layers[hit.layer].clip, square.rect);
   };
 
   for (const Hit& hit : hits_) {
@@ -98,7 +94,7 @@ bool PartialRedraw::collect(const DisplayList& list, const TileSet& tiles, const
     const Square& square = squares_[hit.square];
     if (square.lowest == kDrawn || static_cast<std::int32_t>(hit.layer) < square.lowest) continue; // hidden
     const Layer& layer = list.layers[hit.layer];
-    draw(square.rect, list.clip, layer.program, layer.instance);
+    draw(square.rect, layer.clip, layer.program, layer.instance);
     if (spent > most) return false;
   }
   return spent <= most;
@@ -114,7 +110,7 @@ void PartialRedraw::findHits(const DisplayList& list) {
       const Cover cover = test.of(square.rect);
       if (cover == Cover::None) return;
       // Beyond the clip the background shows, whatever covers the square.
-      if (cover == Cover::Whole && plain && holds(list.clip, square.rect)) {
+      if (cover == Cover::Whole && plain && holds(list.layers[i].clip, square.rect)) {
         square.lowest = static_cast<std::int32_t>(i);
         square.above = 0;
       } else {

@@ -111,24 +111,40 @@ const PatternTexture::Level& PatternTexture::level(const std::shared_ptr<const I
   const auto found = levels_.find(key);
   if (found != levels_.end()) return found->second;
 
-  const std::int64_t texels = static_cast<std::int64_t>(width) * height;
+  images_.emplace(image.get(), image);
+  const Level placed{append(areaReduce(*image, width, height)), width, height};
+  return levels_.emplace(key, placed).first->second;
+}
+
+void PatternTexture::place(const std::shared_ptr<const Mask>& mask, Instance& instance) {
+  auto found = masks_.find(mask.get());
+  if (found == masks_.end()) {
+    std::vector<std::uint8_t> rgba;
+    rgba.reserve(mask->coverage.size() * kTexelBytes);
+    for (const std::uint8_t coverage : mask->coverage) rgba.insert(rgba.end(), kTexelBytes, coverage);
+    const int first = append(rgba);
+    found = masks_.emplace(mask.get(), PlacedMask{mask, first}).first;
+  }
+  instance.texels = {found->second.first, mask->width, mask->height, 0};
+}
+
+int PatternTexture::append(const std::vector<std::uint8_t>& rgba) {
+  const auto texels = static_cast<std::int64_t>(rgba.size() / kTexelBytes);
   if (used_ + texels > device_->maxTexels()) {
     throw Error(ExitCode::BadInput,
-                fmt::format("the image patterns hold {} texels together; {} can draw with at most {}: use "
-                            "smaller images",
+                fmt::format("the image patterns and texts hold {} texels together; {} can draw with at most "
+                            "{}: use smaller images",
                             used_ + texels, device_->text(GL_RENDERER), device_->maxTexels()));
   }
-  const std::vector<std::uint8_t> rgba = areaReduce(*image, width, height);
   reserve(used_ + static_cast<int>(texels));
   const GlFunctions& gl = device_->gl();
   gl.bindBuffer(GL_TEXTURE_BUFFER, buffer_);
   gl.bufferSubData(GL_TEXTURE_BUFFER, static_cast<GLintptr>(used_) * kTexelBytes,
                    static_cast<GLsizeiptr>(rgba.size()), rgba.data());
   checkGl(gl, "uploading an image pattern");
-  images_.emplace(image.get(), image);
-  const Level placed{used_, width, height};
+  const int first = used_;
   used_ += static_cast<int>(texels);
-  return levels_.emplace(key, placed).first->second;
+  return first;
 }
 
 void PatternTexture::reserve(int texels) {

@@ -1,5 +1,7 @@
 #include "render/raster/shader_sources.h"
 
+#include "render/raster/shader_paths.h"
+
 #include <fmt/format.h>
 
 namespace offstage {
@@ -30,9 +32,15 @@ flat out vec2 vOrigin;
 #ifdef HAS_INNER
 flat out vec4 vInner;
 #endif
+#ifdef HAS_MORE
+flat out vec4 vMore;
+flat out vec2 vRest;
+#endif
+#ifdef HAS_TEXELS
+flat out ivec4 vTexels;
+#endif
 #ifdef PATTERN
 flat out vec3 vWindowAlpha;
-flat out ivec4 vTexels;
 flat out vec4 vTexelMap;
 #else
 flat out vec4 vColor; // premultiplied
@@ -60,10 +68,16 @@ void main() {
 #ifdef HAS_INNER
   vInner = inner;
 #endif
+#ifdef HAS_MORE
+  vMore = texelMap;
+  vRest = window;
+#endif
   float alpha = float(color.a) * (1.0 / 255.0);
+#ifdef HAS_TEXELS
+  vTexels = texels;
+#endif
 #ifdef PATTERN
   vWindowAlpha = vec3(window, alpha);
-  vTexels = texels;
   vTexelMap = texelMap;
 #else
 #ifdef WHOLE
@@ -85,9 +99,16 @@ flat in vec2 vOrigin;
 #ifdef HAS_INNER
 flat in vec4 vInner;
 #endif
+#ifdef HAS_MORE
+flat in vec4 vMore;
+flat in vec2 vRest;
+#endif
+#ifdef HAS_TEXELS
+flat in ivec4 vTexels;
+uniform samplerBuffer store;
+#endif
 #ifdef PATTERN
 flat in vec3 vWindowAlpha;
-flat in ivec4 vTexels;
 flat in vec4 vTexelMap;
 #else
 flat in vec4 vColor;
@@ -182,12 +203,20 @@ float insideBox(vec2 p, vec4 edges) {
 }
 )";
 
+/// A pixel of a mask is a texel; beyond the mask, where a whole tile is drawn, there is nothing. p, from the
+/// mask's corner, is the middle of a pixel, so its floor is sure.
+constexpr const char* kMask = R"(
+float insideMask(vec2 p) {
+  ivec2 at = ivec2(floor(p));
+  bool inside = at.x >= 0 && at.y >= 0 && at.x < vTexels.y && at.y < vTexels.z;
+  return inside ? texelFetch(store, vTexels.x + at.y * vTexels.y + at.x).a : 0.0;
+}
+)";
+
 /// The pattern's colour, premultiplied: the mean of the image, each texel a rectangle of its colour, over the
 /// window (1 to 2 texels an axis) around the pixel's centre. A window of one texel is bilinear interpolation.
 /// TAPS texels an axis are enough: 2 for windows of one texel, else 3.
 constexpr const char* kPattern = R"(
-uniform samplerBuffer store;
-
 vec4 texel(int x, int y) { return texelFetch(store, vTexels.x + y * vTexels.y + x); }
 
 int place(int i, int count) {
@@ -249,6 +278,13 @@ std::string coverageFunctions(Coverage coverage) {
     return columns + kLarge + kSmall;
   case Coverage::Box:
     return kBox;
+  case Coverage::Quad:
+  case Coverage::Arrow:
+  case Coverage::Strip:
+  case Coverage::Elbow:
+    return pathFunctions(coverage);
+  case Coverage::Mask:
+    return kMask;
   case Coverage::Whole:
     break;
   }
@@ -268,6 +304,13 @@ const char* coverageExpression(Coverage coverage) {
     return "insideAny(fromOrigin(), vOuter) - insideAny(fromOrigin(), vInner)";
   case Coverage::Box:
     return "insideBox(fromOrigin(), vOuter) - insideBox(fromOrigin(), vInner)";
+  case Coverage::Quad:
+  case Coverage::Arrow:
+  case Coverage::Strip:
+  case Coverage::Elbow:
+    return pathExpression(coverage);
+  case Coverage::Mask:
+    return "insideMask(fromOrigin())";
   case Coverage::Whole:
     break;
   }
@@ -286,12 +329,18 @@ std::string preamble(const ProgramKind& kind) {
                      "#define precise\n"
                      "#endif\n";
   if (kind.coverage == Coverage::Whole) text += "#define WHOLE\n";
-  const bool arcs = kind.coverage == Coverage::Disc || kind.coverage == Coverage::DiscOnGround ||
-                    kind.coverage == Coverage::Ring;
-  if (kind.paint != PaintSource::Color || (!arcs && kind.coverage != Coverage::Whole))
-    text += "#define HAS_ORIGIN\n";
-  if (kind.coverage != Coverage::Disc && kind.coverage != Coverage::Whole) text += "#define HAS_INNER\n";
+  const Coverage coverage = kind.coverage;
+  const bool absolute = coverage == Coverage::Disc || coverage == Coverage::DiscOnGround ||
+                        coverage == Coverage::Ring || coverage == Coverage::Strip ||
+                        coverage == Coverage::Whole;
+  if (kind.paint != PaintSource::Color || !absolute) text += "#define HAS_ORIGIN\n";
+  const bool mask = coverage == Coverage::Mask;
+  if (coverage != Coverage::Disc && coverage != Coverage::Strip && coverage != Coverage::Whole && !mask)
+    text += "#define HAS_INNER\n";
+  if (coverage == Coverage::Arrow || coverage == Coverage::Strip || coverage == Coverage::Elbow)
+    text += "#define HAS_MORE\n";
   if (kind.paint != PaintSource::Color) text += "#define PATTERN\n";
+  if (kind.paint != PaintSource::Color || mask) text += "#define HAS_TEXELS\n";
   if (kind.footprint == Footprint::Point) text += "#define POINT\n";
   text += fmt::format("#define TAPS {}\n", kind.paint == PaintSource::Reduced ? 3 : 2);
   text += fmt::format("#define SMALL_CURVATURE {:.9f}\n", 1.0 / kLeastArcRadius);

@@ -15,6 +15,10 @@ inline PixelRect common(const PixelRect& a, const PixelRect& b) {
           std::min(a.bottom, b.bottom)};
 }
 
+inline bool holds(const PixelRect& outer, const PixelRect& inner) {
+  return common(outer, inner) == inner;
+}
+
 /// A set of the tiles of kTile×kTile px that a frame is divided into from its upper-left corner. Stored as
 /// one word for each cell of 8×8 tiles: bit 8·row + column.
 class TileSet {

@@ -2,8 +2,11 @@
 
 #include "render/job/command_line.h"
 #include "render/job/interrupt.h"
+#include "render/job/poster.h"
 #include "render/job/render_job.h"
 #include "render/stage/stage_source.h"
+
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -17,9 +20,16 @@ int runExercise(const std::function<std::unique_ptr<Exercise>()>& make, int argc
   addRenderOptions(app, options);
   return runCommandLine(app, argc, argv, [&] {
     requireOutput(options);
-    StageSource source(make(), options);
-    const RenderResult result = render(source, options);
-    printSummary(result, options);
+    std::optional<Poster> poster;
+    if (!options.poster.empty()) poster.emplace(options.poster);
+    if (!options.out.empty() || !options.hashFile.empty()) {
+      StageSource source(make(), options);
+      printSummary(render(source, options), options);
+    }
+    if (poster) {
+      StageSource source(make(), options); // at frame 0
+      poster->write(source, std::nullopt, options.scale.value_or(1.0));
+    }
     return static_cast<int>(ExitCode::Done);
   });
 }

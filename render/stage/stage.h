@@ -1,6 +1,9 @@
 #pragma once
 
+#include "render/stage/input.h"
 #include "render/stage/node.h"
+#include "render/stage/text.h"
+#include "src/scene/overlay.h"
 #include "src/sim/clock.h"
 #include "src/sim/random.h"
 
@@ -32,12 +35,30 @@ public:
   [[nodiscard]] std::int64_t frame() const { return now_.frame; } ///< number of the frame being made, from 0
   [[nodiscard]] Random& random() { return random_; }              ///< java.util.Random, seeded
 
+  /// What the user of a recorded game does (`--input`).
+  [[nodiscard]] const Input& input() const { return input_; }
+
   /// Puts a shape on top. One that is there already stays where it is.
   void add(const Node& node);
   /// Takes a shape away; nothing happens when it is not there.
   void remove(const Node& node);
   [[nodiscard]] bool contains(const Node& node) const;
   [[nodiscard]] std::size_t count() const { return entries_.size(); } ///< shapes on the stage
+
+  // What is drawn over and under shapes, as scene files have it (scenes/README.md, Overlays). Each is for one
+  // shape, which it puts on the stage if need be, for as long as that stays; `style.of` is set here. Arrows
+  // show the velocity and the acceleration of a GameObject.
+  void addTrail(const Node& node, TrailOverlay style = {});
+  void addGhosts(const Node& node, GhostOverlay style = {});
+  void addOutline(const Node& node, OutlineOverlay style = {});
+  void addMark(const Node& node, MarkOverlay style = {});
+  void addArrow(const Node& node, ArrowOverlay style = {});
+  /// Lines at multiples of `style.step` px from the upper-left corner, which are axes.
+  void addGrid(GridOverlay style);
+  // The same for texts, which lie over all shapes.
+  void add(const Text& text);
+  void remove(const Text& text);
+  [[nodiscard]] bool contains(const Text& text) const;
 
 private:
   friend class StageSource;
@@ -49,12 +70,22 @@ private:
   };
   static constexpr std::uint32_t kNoLook = 0xffffffffU;
 
+  BodySelection select(const Node& node);
+
   Settings settings_;
   Random random_;
   Tick now_;
+  Input input_;
   std::vector<Entry> entries_;
+  struct TextEntry {
+    Text text;
+    std::uint64_t checked = 0; ///< the version that was held against its font
+  };
+  std::vector<TextEntry> texts_;
   std::vector<std::uint32_t> freeLooks_; ///< of shapes that were removed, to be used again
   std::uint32_t nextId_ = 0;
+  Overlays overlays_;
+  bool overlaysChanged_ = false;
 };
 
 } // namespace offstage

@@ -1,11 +1,15 @@
 #pragma once
 
+#include "render/draw/overlay_history.h"
+#include "render/draw/overlay_painter.h"
 #include "render/draw/painter.h"
+#include "render/draw/text_painter.h"
 #include "render/job/render_options.h"
 #include "render/job/source.h"
 #include "render/stage/exercise.h"
 
 #include <memory>
+#include <vector>
 
 namespace offstage {
 
@@ -22,17 +26,25 @@ public:
   void step() override;
   void draw(Picture& picture) const override;
   [[nodiscard]] std::uint64_t stateHash() const override;
-  /// Of the clock alone: all else of an exercise is the program and its options.
+  /// Of the clock and the recorded input: all else of an exercise is the program and its options.
   [[nodiscard]] std::uint64_t fingerprint() const override;
 
 private:
   /// Gives every shape whose look is new or has changed its place among the painter's looks.
   void prepareLooks();
+  void noteFrame(); ///< to what overlays remember
+  /// Holds every new or changed text against its font.
+  void checkTexts();
 
   std::unique_ptr<Exercise> exercise_;
   Clock clock_;
+  std::filesystem::path inputFile_; ///< empty: none
   Stage stage_;
   Painter painter_;
+  std::vector<Body> bodies_; ///< the shapes as overlays see them
+  OverlayHistory history_;
+  OverlayPainter overlays_;
+  TextPainter textPainter_;
 };
 
 } // namespace offstage

@@ -15,6 +15,7 @@ using Action = std::function<int()>;
 void addRender(CLI::App& app, Action& action);
 void addJoin(CLI::App& app, Action& action);
 void addStill(CLI::App& app, Action& action);
+void addBundle(CLI::App& app, Action& action);
 void addTrace(CLI::App& app, Action& action);
 void addDiff(CLI::App& app, Action& action);
 void addGolden(CLI::App& app, Action& action);

@@ -1,3 +1,5 @@
+#include "render/draw/font_library.h"
+#include "render/draw/formula.h"
 #include "render/output/codecs.h"
 #include "render/raster/canvas.h"
 #include "src/app/commands.h"
@@ -49,15 +51,26 @@ bool reportCodecs() {
 
 bool reportFonts() {
   bool all = true;
-  for (const std::string_view name : {"DejaVuSans.ttf", "DejaVuSansMono.ttf"}) {
-    const std::filesystem::path file = std::filesystem::path("/usr/share/fonts/truetype/dejavu") / name;
-    std::error_code ignored;
-    const bool present = std::filesystem::is_regular_file(file, ignored);
-    all = all && present;
-    line("font", present ? fmt::format("ok: {}", file.string())
-                         : fmt::format("missing: {}; install fonts-dejavu-core", name));
+  FontLibrary fonts;
+  for (const Typeface typeface : {Typeface::Sans, Typeface::SansBold, Typeface::Mono, Typeface::MonoBold}) {
+    FontChoice choice;
+    choice.typeface = typeface;
+    try {
+      static_cast<void>(fonts.get(choice));
+      line("font", fmt::format("ok: {}", fontFile(choice).string()));
+    } catch (const Error& error) {
+      all = false;
+      line("font", fmt::format("missing: {}", error.what()));
+    }
   }
   return all;
+}
+
+/// Only formulas need it, so a machine without it lacks nothing.
+void reportTex() {
+  const std::string programs = texPrograms();
+  line("TeX",
+       programs.empty() ? fmt::format("none; for formulas install {}", kTexPackages) : "ok: " + programs);
 }
 
 std::string limitText(int resource, rlim_t unit, std::string_view unitName) {
@@ -90,6 +103,7 @@ void addDoctor(CLI::App& app, Action& action) {
       const bool gl = reportGl();
       const bool codecs = reportCodecs();
       const bool fonts = reportFonts();
+      reportTex();
       reportLimits();
       return static_cast<int>(gl && codecs && fonts ? ExitCode::Done : ExitCode::Environment);
     };

@@ -4,7 +4,7 @@
 # program is not linked to them. Each of their functions that the library uses gets a jump through a slot here; the first
 # call of any of them loads the libraries and fills all slots (lazy_libav.cpp).
 execute_process(COMMAND ${NM} -u ${ARCHIVE} OUTPUT_VARIABLE undefined COMMAND_ERROR_IS_FATAL ANY)
-string(REGEX MATCHALL "U (av|avcodec|avformat|avio|avutil|sws|swscale)_[A-Za-z0-9_]+" lines "${undefined}")
+string(REGEX MATCHALL "U (av|avcodec|avformat|avio|avutil|sws|swscale|swr)_[A-Za-z0-9_]+" lines "${undefined}")
 list(TRANSFORM lines REPLACE "^U " "")
 list(REMOVE_DUPLICATES lines)
 list(SORT lines)

@@ -11,6 +11,7 @@
 
 extern "C" {
 #include <libavutil/avutil.h>
+#include <libswresample/swresample.h>
 #include <libswscale/swscale.h>
 
 extern const char* const offstageLibavNames[]; ///< ends with a null pointer
@@ -28,7 +29,7 @@ struct Library {
   const char* package;
 };
 
-constexpr std::array<Library, 4> kLibraries{{
+constexpr std::array<Library, 5> kLibraries{{
     {"libavutil.so." AV_STRINGIFY(LIBAVUTIL_VERSION_MAJOR),
      "libavutil" AV_STRINGIFY(LIBAVUTIL_VERSION_MAJOR)},
     {"libavcodec.so." AV_STRINGIFY(LIBAVCODEC_VERSION_MAJOR),
@@ -37,6 +38,8 @@ constexpr std::array<Library, 4> kLibraries{{
      "libavformat" AV_STRINGIFY(LIBAVFORMAT_VERSION_MAJOR)},
     {"libswscale.so." AV_STRINGIFY(LIBSWSCALE_VERSION_MAJOR),
      "libswscale" AV_STRINGIFY(LIBSWSCALE_VERSION_MAJOR)},
+    {"libswresample.so." AV_STRINGIFY(LIBSWRESAMPLE_VERSION_MAJOR),
+     "libswresample" AV_STRINGIFY(LIBSWRESAMPLE_VERSION_MAJOR)},
 }};
 
 std::vector<DynamicLibrary> openAll() {

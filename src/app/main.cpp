@@ -46,6 +46,7 @@ int main(int argc, char** argv) {
   offstage::addRender(app, action);
   offstage::addJoin(app, action);
   offstage::addStill(app, action);
+  offstage::addBundle(app, action);
   offstage::addTrace(app, action);
   offstage::addDiff(app, action);
   offstage::addGolden(app, action);

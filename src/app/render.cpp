@@ -1,10 +1,12 @@
 #include "render/job/command_line.h"
+#include "render/job/poster.h"
 #include "render/job/render_job.h"
 #include "render/job/scene_source.h"
 #include "src/app/commands.h"
 #include "src/scene/scene.h"
 
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 
@@ -24,9 +26,17 @@ void addRender(CLI::App& app, Action& action) {
       const RenderOptions& options = arguments->options;
       requireOutput(options);
       const Scene scene = loadScene(arguments->scene, options.sceneOverrides());
-      SceneSource source(scene, options.viewport(scene.size[0], scene.size[1], scene.scale));
-      const RenderResult result = render(source, options);
-      printSummary(result, options);
+      const Viewport viewport = options.viewport(scene.size[0], scene.size[1], scene.scale);
+      std::optional<Poster> poster;
+      if (!options.poster.empty()) poster.emplace(options.poster);
+      if (!options.out.empty() || !options.hashFile.empty()) {
+        SceneSource source(scene, viewport);
+        printSummary(render(source, options), options);
+      }
+      if (poster) {
+        SceneSource source(scene, viewport); // at frame 0
+        poster->write(source, scene.timeline.poster, viewport.scale);
+      }
       return static_cast<int>(ExitCode::Done);
     };
   });

@@ -1,6 +1,7 @@
 #include "render/job/still.h"
 
 #include "render/job/command_line.h"
+#include "render/job/poster.h"
 #include "render/output/atomic_file.h"
 #include "render/output/png.h"
 #include "src/app/commands.h"
@@ -27,7 +28,7 @@ void addStill(CLI::App& app, Action& action) {
       *app.add_subcommand("still", "Draw one moment of a scene, or several in one picture, as a PNG");
   verb.add_option("SCENE", arguments->scene, "the scene file (TOML)")->required();
   verb.add_option("-o,--output", arguments->out, "the PNG to write")->required()->type_name("X.png");
-  verb.add_option("--at", arguments->at, "the moment in simulated seconds: the frame on show then")
+  verb.add_option("--at", arguments->at, "the moment in seconds of the video: the frame on show then")
       ->required()
       ->check(CLI::NonNegativeNumber)
       ->type_name("S");
@@ -44,10 +45,12 @@ void addStill(CLI::App& app, Action& action) {
                     fmt::format("{}: a still is a PNG; end its name in .png", arguments->out.string()));
       const RenderOptions& options = arguments->options;
       const Scene scene = loadScene(arguments->scene, options.sceneOverrides());
-      SceneSource source(scene, options.viewport(scene.size[0], scene.size[1], scene.scale));
+      const Viewport viewport = options.viewport(scene.size[0], scene.size[1], scene.scale);
+      SceneSource source(scene, viewport);
       AtomicFile file(arguments->out);
       const Still still = drawStill(source, arguments->at, arguments->strobe);
-      const std::vector<std::uint8_t> png = encodePng(still.frame, still.alpha);
+      const std::vector<std::uint8_t> png =
+          encodePng(still.frame, still.alpha, printResolution(viewport.scale));
       file.write(png.data(), png.size());
       file.commit();
       fmt::print("{}: {}x{}, frame {} at {} s\n", arguments->out.string(), still.frame.width,

@@ -5,6 +5,7 @@
 #include "render/output/text_output.h"
 #include "src/app/commands.h"
 #include "src/scene/scene.h"
+#include "src/scene/trace_summary.h"
 #include "src/sim/world.h"
 
 #include <iostream>
@@ -31,6 +32,7 @@ void addTrace(CLI::App& app, Action& action) {
     std::filesystem::path scene;
     std::filesystem::path out = "-";
     std::filesystem::path events;
+    bool summary = false;
     RenderOptions options;
   };
   const auto arguments = std::make_shared<Arguments>();
@@ -41,36 +43,54 @@ void addTrace(CLI::App& app, Action& action) {
       ->type_name("X.csv");
   verb.add_option("--events", arguments->events, "bounces, hits, spawns and removals: .csv, .jsonl or -")
       ->type_name("FILE");
+  verb.add_flag(
+      "--summary", arguments->summary,
+      "print what the run comes to: momentum, energy and its drift, contacts, the largest overlap; the "
+      "trace itself is then only written where -o is given");
   addSceneOptions(verb, arguments->options);
-  verb.callback([arguments, &action] {
-    action = [arguments] {
-      const TraceFormat format = formatOf(arguments->out);
+  verb.callback([arguments, &action, &verb] {
+    const bool withTrace = !arguments->summary || verb.count("--output") > 0;
+    action = [arguments, withTrace] {
+      const TraceFormat format = withTrace ? formatOf(arguments->out) : TraceFormat::Csv;
       const bool withEvents = !arguments->events.empty();
       const TraceFormat eventFormat = withEvents ? formatOf(arguments->events) : TraceFormat::Csv;
       if (withEvents && arguments->events == arguments->out)
         throw Error(ExitCode::BadInput, "the trace and its events cannot go to the same place");
+      if (arguments->summary && ((withTrace && arguments->out == "-") || arguments->events == "-"))
+        throw Error(ExitCode::BadInput,
+                    "the summary goes to the standard output, so the trace and its events cannot");
       const Scene scene = loadScene(arguments->scene, arguments->options.sceneOverrides());
 
       if (scene.replay)
         throw Error(ExitCode::BadInput, fmt::format("{} simulates nothing: it replays the trace {}",
                                                     arguments->scene.string(), scene.replay->trace.file));
-      TextOutput states(arguments->out);
+      std::optional<TextOutput> states;
+      if (withTrace) states.emplace(arguments->out);
       std::optional<TextOutput> events;
       if (withEvents) events.emplace(arguments->events);
-      TraceWriter stateWriter(states.stream(), format, scene.world.groups);
+      std::optional<TraceWriter> stateWriter;
+      if (states) stateWriter.emplace(states->stream(), format, scene.world.groups);
       std::optional<EventWriter> eventWriter;
       if (events) eventWriter.emplace(events->stream(), eventFormat);
 
+      std::optional<TraceSummary> summary;
+      if (arguments->summary) summary.emplace(scene.world);
+
       World world(scene.world);
-      stateWriter.write(world);
+      const auto take = [&] {
+        if (stateWriter) stateWriter->write(world);
+        if (eventWriter) eventWriter->write(world);
+        if (summary) summary->add(world);
+      };
+      take();
       while (world.frame() < scene.clock.steps()) {
         throwIfInterrupted();
         world.step(scene.clock.tick(world.frame() + 1));
-        stateWriter.write(world);
-        if (eventWriter) eventWriter->write(world);
+        take();
       }
-      states.commit();
+      if (states) states->commit();
       if (events) events->commit();
+      if (summary) fmt::print("{}", summary->text());
       return static_cast<int>(ExitCode::Done);
     };
   });

@@ -3,6 +3,8 @@
 #include "src/scene/parse_look.h"
 #include "src/scene/quote.h"
 
+#include <cmath>
+
 #include <fmt/core.h>
 
 namespace offstage {
@@ -14,25 +16,29 @@ constexpr Choice<bool> kLeavings[] = {{"keep", false}, {"remove", true}};
 void readName(SceneBuilder& builder, const TableReader& reader, std::uint32_t id) {
   const auto name = reader.givenString("name");
   builder.scene.bodyNames.push_back(name.value_or(""));
-  if (!name) return;
-  const std::uint32_t line = reader.find("name")->line;
-  if (const auto [place, isNew] = builder.lines.try_emplace(*name, line); !isNew) {
-    reader.reject("name", fmt::format("must be unique, but {} is also the body's in line {}",
-                                      quotedText(*name), place->second));
-    return;
-  }
-  builder.bodies.emplace(*name, id);
+  if (!name || addBodyName(builder, *name, id, reader.find("name")->line)) return;
+  reader.reject("name", fmt::format("must be unique, but {} is also the body's in line {}", quotedText(*name),
+                                    builder.lines.at(*name)));
 }
 
 } // namespace
 
-void readGroupAndLeaving(SceneBuilder& builder, const TableReader& reader, Body& body) {
+bool addBodyName(SceneBuilder& builder, const std::string& name, std::uint32_t id, std::uint32_t line) {
+  if (!builder.lines.try_emplace(name, line).second) return false;
+  builder.bodies.emplace(name, id);
+  return true;
+}
+
+void readCommonProperties(SceneBuilder& builder, const TableReader& reader, Body& body) {
   body.group = builder.addGroup(reader.string("group"));
   body.removedOutside = reader.choice("leaving", kLeavings);
+  body.restitution = reader.number("restitution", Range::between(0.0, 1.0));
+  body.continuous = reader.boolean("continuous");
+  body.friction = reader.number("friction", Range::atLeast(0.0));
 }
 
 bool readBodyProperties(SceneBuilder& builder, const TableReader& reader, Body& body) {
-  readGroupAndLeaving(builder, reader, body);
+  readCommonProperties(builder, reader, body);
   body.feelsGravity = reader.boolean("gravity");
   body.fixed = reader.boolean("fixed");
   body.integrator = reader.givenChoice("integrator", kIntegrators).value_or(builder.integrator);
@@ -54,30 +60,50 @@ void rejectKeysOfOtherShape(const TableReader& reader, Shape shape,
   }
 }
 
-void parseBody(SceneBuilder& builder, const TomlValue& table) {
-  const TableReader reader(table, {"body"}, "[[body]]", builder.errors);
+Body readBody(SceneBuilder& builder, const TableReader& reader, BodyNumbers& numbers) {
   Body body;
-  body.id = static_cast<std::uint32_t>(builder.scene.world.bodies.size());
-  readName(builder, reader, body.id);
   const bool shapeKnown = readBodyProperties(builder, reader, body);
-  body.look = readLooks(builder, reader, false).front();
-
+  body.look = readLooks(builder, reader, body, false).front();
   if (shapeKnown) {
     rejectKeysOfOtherShape(reader, body.shape, {"center", "radius"}, {"position", "size"});
     if (body.shape == Shape::Circle) {
-      body.position = builder.view.position(toVec2(reader.pair("center")));
-      body.radius = builder.view.length()(reader.number("radius", Range::atLeast(0.0)));
+      numbers.place = reader.pair("center");
+      numbers.radius = reader.number("radius", Range::atLeast(0.0));
     } else {
-      body.position = builder.view.position(toVec2(reader.pair("position")));
-      body.size = builder.view.size(toVec2(reader.pair("size", Range::atLeast(0.0))));
+      numbers.place = reader.pair("position");
+      numbers.size = reader.pair("size", Range::atLeast(0.0));
     }
   }
-  body.velocity = builder.view.vector(toVec2(reader.pair("velocity")));
-  body.acceleration = builder.view.vector(toVec2(reader.pair("acceleration")));
-  body.mass = reader.number("mass", Range::above(0.0));
-  builder.requireFinite(table, "[[body]]",
-                        {body.position.x(), body.position.y(), body.radius, body.size.x(), body.size.y(),
-                         body.velocity.x(), body.velocity.y(), body.acceleration.x(), body.acceleration.y()});
+  numbers.velocity = reader.pair("velocity");
+  numbers.acceleration = reader.pair("acceleration");
+  numbers.mass = reader.number("mass", Range::above(0.0));
+  return body;
+}
+
+Body placed(const View& view, const BodyNumbers& numbers, Body body) {
+  body.position = view.position(toVec2(numbers.place));
+  body.size = view.size(toVec2(numbers.size));
+  body.radius = view.length()(numbers.radius);
+  body.velocity = view.vector(toVec2(numbers.velocity));
+  body.acceleration = view.vector(toVec2(numbers.acceleration));
+  body.mass = numbers.mass;
+  return body;
+}
+
+bool isFinite(const Body& body) {
+  return body.position.allFinite() && body.size.allFinite() && std::isfinite(body.radius) &&
+         body.velocity.allFinite() && body.acceleration.allFinite();
+}
+
+void parseBody(SceneBuilder& builder, const TomlValue& table) {
+  const TableReader reader(table, {"body"}, "[[body]]", builder.errors);
+  const auto id = static_cast<std::uint32_t>(builder.scene.world.bodies.size());
+  readName(builder, reader, id);
+  BodyNumbers numbers;
+  const Body kind = readBody(builder, reader, numbers);
+  Body body = placed(builder.view, numbers, kind);
+  body.id = id;
+  if (!isFinite(body)) builder.errors.add(table, "a number in [[body]] is too large for this [view]");
   builder.scene.world.bodies.push_back(body);
   builder.bodyTables.push_back(&table);
 }

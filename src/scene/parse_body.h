@@ -2,6 +2,10 @@
 
 #include "src/scene/scene_builder.h"
 
+#include <array>
+#include <cstdint>
+#include <string>
+
 namespace offstage {
 
 inline constexpr Choice<Integrator> kIntegrators[] = {
@@ -13,12 +17,36 @@ inline constexpr Choice<Integrator> kIntegrators[] = {
     {"exact", Integrator::Exact},
 };
 
-/// What [[body]] and [[spawn]] share: shape, group, gravity, fixed, integrator, leaving. The look is not
-/// read. Returns whether the shape is known, so that keys can be held against it.
+/// What [[body]] and [[spawn]] share: shape, group, gravity, fixed, integrator, leaving, restitution,
+/// friction, continuous. The look is not read. Returns whether the shape is known, so that keys can be held
+/// against it.
 bool readBodyProperties(SceneBuilder& builder, const TableReader& reader, Body& body);
 
-/// The keys group and leaving, which [[launch]] shares with them.
-void readGroupAndLeaving(SceneBuilder& builder, const TableReader& reader, Body& body);
+/// The numbers of a [[body]], in the scene's units.
+struct BodyNumbers {
+  std::array<double, 2> place{}; ///< a circle's centre, a rectangle's upper-left corner
+  std::array<double, 2> size{};  ///< of a rectangle
+  std::array<double, 2> velocity{};
+  std::array<double, 2> acceleration{};
+  double radius = 0.0; ///< of a circle
+  double mass = 1.0;
+};
+
+/// A [[body]]'s keys without its name and what follows from its numbers: those go to `numbers`, and placed()
+/// brings them together.
+Body readBody(SceneBuilder& builder, const TableReader& reader, BodyNumbers& numbers);
+
+/// The body with its numbers, in the simulation's units.
+Body placed(const View& view, const BodyNumbers& numbers, Body body);
+
+/// Whether [view] has left all of the body's numbers finite.
+bool isFinite(const Body& body);
+
+/// Makes a name known that is not empty. False when it is another body's.
+bool addBodyName(SceneBuilder& builder, const std::string& name, std::uint32_t id, std::uint32_t line);
+
+/// Those of them that [[launch]] shares: group, leaving, restitution, friction, continuous.
+void readCommonProperties(SceneBuilder& builder, const TableReader& reader, Body& body);
 
 /// Reports each given key that belongs to the other shape.
 void rejectKeysOfOtherShape(const TableReader& reader, Shape shape,

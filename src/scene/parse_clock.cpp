@@ -26,6 +26,24 @@ std::optional<double> overriding(std::optional<double> given, std::string_view w
   return std::nullopt;
 }
 
+constexpr Choice<Stepping::Form> kForms[] = {{"variable", Stepping::Form::Variable},
+                                             {"fixed", Stepping::Form::Fixed},
+                                             {"clamped", Stepping::Form::Clamped},
+                                             {"accumulator", Stepping::Form::Accumulator}};
+
+Stepping readStepping(const TableReader& reader) {
+  Stepping stepping;
+  stepping.form = reader.choice("step", kForms);
+  const auto dt = reader.givenNumber("dt", Range::between(kMinStep, kMaxStep));
+  if (dt && stepping.form == Stepping::Form::Variable)
+    reader.reject(
+        "dt",
+        "belongs to the steps \"fixed\", \"clamped\" and \"accumulator\"; with \"variable\" a step is as "
+        "long as its frame");
+  if (dt) stepping.dt = *dt;
+  return stepping;
+}
+
 std::optional<Clock> readRecording(const std::filesystem::path& file, ErrorList& errors) {
   try {
     return Clock::recorded(readDtLog(file));
@@ -45,6 +63,8 @@ void parseClock(SceneBuilder& builder, const TomlValue* table, const TableReader
   const Range durationRange = Range::between(0.0, kMaxDuration);
 
   reader.rejectBoth("recorded", "fps");
+  builder.scene.world.stepping = readStepping(reader);
+  builder.substepsGiven = reader.has("substeps");
   builder.scene.world.substeps = static_cast<int>(reader.integer("substeps", 1, kMaxSubsteps));
   double fps = reader.number("fps", fpsRange);
   if (const auto given = overriding(overrides.fps, "fps", fpsRange, builder.errors)) fps = *given;

@@ -46,6 +46,15 @@ void rejectWhatTheResponseLacks(const TableReader& reader, const ContactRule& ru
   if (reader.has("approaching_only") && rule.approachingOnly) reader.reject("approaching_only", kProblem);
 }
 
+/// The solver always separates, and never holds together what parts.
+void rejectWhatTheSolverLacks(const SceneBuilder& builder, const TableReader& reader,
+                              const ContactRule& rule) {
+  if (builder.scene.world.contactModel != ContactModel::Solver || rule.response != Response::Bounce) return;
+  constexpr std::string_view kProblem = "cannot be false for a bounce with [world] contacts = \"solver\"";
+  if (reader.has("separate") && !rule.separate) reader.reject("separate", kProblem);
+  if (reader.has("approaching_only") && !rule.approachingOnly) reader.reject("approaching_only", kProblem);
+}
+
 } // namespace
 
 void parseCollide(SceneBuilder& builder, const TomlValue& table) {
@@ -59,6 +68,7 @@ void parseCollide(SceneBuilder& builder, const TomlValue& table) {
   rule.separate = reader.has("separate") ? reader.boolean("separate") : rule.response == Response::Bounce;
   rule.approachingOnly = reader.boolean("approaching_only");
   rejectWhatTheResponseLacks(reader, rule);
+  rejectWhatTheSolverLacks(builder, reader, rule);
   if (!groupsKnown) return;
 
   const auto pair = std::minmax(rule.groupA, rule.groupB);

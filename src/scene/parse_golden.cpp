@@ -27,7 +27,7 @@ void readList(SceneBuilder& builder, const TableReader& reader, std::vector<doub
     const auto seconds =
         readNumber(value, fmt::format("value {} of {}", i + 1, what), Range::atLeast(0.0), builder.errors);
     if (!seconds) continue;
-    const double end = builder.scene.clock.duration();
+    const double end = builder.videoSeconds;
     if (*seconds > end + 1e-9) {
       builder.errors.add(value, fmt::format("value {} of {} is {} s, but the scene ends at {} s", i + 1, what,
                                             numberText(*seconds), numberText(end)));
@@ -40,7 +40,7 @@ void readList(SceneBuilder& builder, const TableReader& reader, std::vector<doub
 }
 
 void addEvery(SceneBuilder& builder, const TableReader& reader, double every, std::vector<double>& at) {
-  const double end = builder.scene.clock.duration();
+  const double end = builder.videoSeconds;
   if (end / every > static_cast<double>(kMostMoments)) {
     reader.reject("every", fmt::format("gives more than {} pictures", kMostMoments));
     return;

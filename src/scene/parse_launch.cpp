@@ -1,6 +1,7 @@
 #include "src/scene/parse_body.h"
 #include "src/scene/parse_look.h"
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 
@@ -28,10 +29,12 @@ void readEach(const TableReader& reader, std::string_view key, std::string_view 
 
 std::vector<Launch::Moment> readMoments(const TableReader& reader) {
   std::vector<Launch::Moment> moments;
-  if (!reader.has("at") && !reader.has("frame")) {
-    reader.errors().add(reader.value(), "[[launch]] needs 'at' or 'frame'");
+  if (!reader.has("at") && !reader.has("frame") && !reader.has("on")) {
+    reader.errors().add(reader.value(), "[[launch]] needs 'at', 'frame' or 'on'");
   }
   reader.rejectBoth("frame", "at");
+  reader.rejectBoth("on", "at");
+  reader.rejectBoth("on", "frame");
   readEach(reader, "at", "a time or a list of times", [&](const TomlValue& value, const std::string& what) {
     const auto time = readNumber(value, what, Range::atLeast(0.0), reader.errors());
     if (time) moments.push_back({std::nullopt, *time});
@@ -45,23 +48,57 @@ std::vector<Launch::Moment> readMoments(const TableReader& reader) {
   return moments;
 }
 
+/// When the recorded user presses what 'on' names: "key SPACE", "button left".
+void readPresses(SceneBuilder& builder, const TableReader& reader, std::vector<Launch::Moment>& moments) {
+  constexpr std::string_view kKey = "key ";
+  constexpr std::string_view kButton = "button ";
+  const auto on = reader.givenString("on");
+  if (!on) return;
+  const bool key = on->starts_with(kKey) && on->size() > kKey.size();
+  const bool button = *on == "button left" || *on == "button middle" || *on == "button right";
+  if (!key && !button) {
+    reader.reject("on", "must be \"key NAME\", or \"button left\", \"button middle\" or \"button right\"");
+    return;
+  }
+  if (!builder.input) {
+    reader.reject("on", "waits for recorded input, but the scene has no [input]");
+    return;
+  }
+  const std::string name = on->substr(key ? kKey.size() : kButton.size());
+  for (const double time : builder.input->presses(key ? InputAction::KeyDown : InputAction::ButtonDown, name))
+    moments.push_back({std::nullopt, time});
+}
+
+/// The anchor of a key, or where the pointer is at each of the moments.
+Anchor readTarget(SceneBuilder& builder, const TableReader& reader, std::string_view key, Launch& launch,
+                  std::optional<Vec2> Launch::Moment::*pointer) {
+  if (!builder.isPointer(reader, key)) return builder.readAnchor(reader, key).value_or(Anchor{});
+  const Clock& clock = builder.scene.clock;
+  for (Launch::Moment& moment : launch.moments) {
+    const double time = moment.frame ? clock.time(std::min(*moment.frame, clock.steps())) : moment.time;
+    if (builder.input) moment.*pointer = builder.input->mouseAt(time);
+  }
+  return {};
+}
+
 } // namespace
 
 void parseLaunch(SceneBuilder& builder, const TomlValue& table) {
   const TableReader reader(table, {"launch"}, "[[launch]]", builder.errors);
   Launch launch;
   launch.moments = readMoments(reader);
-  launch.from = builder.readAnchor(reader, "from").value_or(Anchor{});
-  launch.toward = builder.readAnchor(reader, "toward").value_or(Anchor{});
+  readPresses(builder, reader, launch.moments);
+  launch.from = readTarget(builder, reader, "from", launch, &Launch::Moment::from);
+  launch.toward = readTarget(builder, reader, "toward", launch, &Launch::Moment::toward);
   launch.speed = builder.view.length()(reader.number("speed", Range::atLeast(0.0)));
 
   Body& body = launch.prototype;
-  readGroupAndLeaving(builder, reader, body);
+  readCommonProperties(builder, reader, body);
   body.feelsGravity = false;
   body.integrator = builder.integrator;
   body.radius = builder.view.length()(reader.number("radius", Range::atLeast(0.0)));
   body.mass = reader.number("mass", Range::above(0.0));
-  body.look = readLooks(builder, reader, false).front();
+  body.look = readLooks(builder, reader, body, false).front();
   builder.requireFinite(table, "[[launch]]",
                         {launch.speed, body.radius, launch.from.point.x(), launch.from.point.y(),
                          launch.toward.point.x(), launch.toward.point.y()});

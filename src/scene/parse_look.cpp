@@ -56,7 +56,6 @@ std::vector<Paint> readCycle(const TableReader& reader) {
 /// The fills that follow each other; nothing in them: not filled.
 std::vector<std::optional<Paint>> readFills(SceneBuilder& builder, const TableReader& reader, bool mayCycle) {
   const TomlValue* fill = reader.find("fill");
-  if (fill == nullptr) return {Look{}.fill};
   if (const auto* text = std::get_if<std::string>(&fill->data)) {
     if (*text == "none") return {std::nullopt};
     return {readColor(*fill, reader.described("fill"), builder.errors).value_or(Color{})};
@@ -106,10 +105,13 @@ std::optional<Stroke> readStroke(SceneBuilder& builder, const TableReader& reade
 
 } // namespace
 
-std::vector<std::uint32_t> readLooks(SceneBuilder& builder, const TableReader& reader, bool mayCycle) {
-  Look look;
+std::vector<std::uint32_t> readLooks(SceneBuilder& builder, const TableReader& reader, const Body& body,
+                                     bool mayCycle) {
+  Look look = bodyLook(builder.scene.theme, body.group, body.fixed, builder.scene.size[1]);
   look.opacity = reader.number("opacity", Range::between(0.0, 1.0));
-  look.stroke = readStroke(builder, reader);
+  // The theme's edge belongs to its fill.
+  if (reader.has("fill") || reader.has("stroke")) look.stroke = readStroke(builder, reader);
+  if (!reader.has("fill")) return {builder.looks.add(look)};
   std::vector<std::uint32_t> indices;
   for (auto& fill : readFills(builder, reader, mayCycle)) {
     look.fill = std::move(fill);

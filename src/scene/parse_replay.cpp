@@ -28,7 +28,8 @@ struct LookRules {
 
 void rejectTablesThatMove(const TableReader& top) {
   if (top.has("clock")) top.reject("clock", "cannot stand beside [replay], whose trace has the times");
-  for (const char* key : {"world", "walls", "view", "body", "spawn", "launch", "collide", "force"}) {
+  for (const char* key :
+       {"world", "walls", "input", "view", "body", "bodies", "spawn", "launch", "collide", "force"}) {
     if (top.has(key)) top.reject(key, "cannot stand beside [replay], which simulates nothing");
   }
 }
@@ -82,7 +83,7 @@ void readLookRule(SceneBuilder& builder, const TomlValue& table, const Trace* tr
   if (!reader.has("id") && !reader.has("group"))
     builder.errors.add(table, "[[replay.look]] needs 'id' or 'group'");
   reader.rejectBoth("id", "group");
-  const std::vector<std::uint32_t> looks = readLooks(builder, reader, reader.has("group"));
+  const std::vector<std::uint32_t> looks = readLooks(builder, reader, Body{}, reader.has("group"));
   if (trace == nullptr) return;
   if (id && !ids.contains(*id)) {
     reader.reject("id", fmt::format("is {}, a body that the trace does not have", *id));
@@ -97,7 +98,7 @@ void readLookRule(SceneBuilder& builder, const TomlValue& table, const Trace* tr
 
 LookRules readLookRules(SceneBuilder& builder, const TableReader& reader, const Trace* trace) {
   LookRules rules;
-  rules.otherwise = readLooks(builder, reader, true);
+  rules.otherwise = readLooks(builder, reader, Body{}, true);
   std::set<std::int64_t> ids;
   if (trace != nullptr) {
     for (const TraceRow& row : trace->rows) ids.insert(row.id);
@@ -116,6 +117,16 @@ LookRules readLookRules(SceneBuilder& builder, const TableReader& reader, const 
     }
   }
   return rules;
+}
+
+/// Gives every group without a look of its own the theme's colour, unless the replay says how bodies look.
+void addThemeLooks(SceneBuilder& builder, const TableReader& reader, const Trace& trace, LookRules& rules) {
+  if (!builder.scene.theme.bodies || reader.has("fill") || reader.has("stroke")) return;
+  for (std::uint32_t group = 0; group < trace.groups.size(); ++group) {
+    Look look = bodyLook(builder.scene.theme, group, false, builder.scene.size[1]);
+    look.opacity = reader.number("opacity", Range::between(0.0, 1.0));
+    rules.byGroup.emplace(group, std::vector<std::uint32_t>{builder.looks.add(look)});
+  }
 }
 
 /// The look of each row: of its body's id, or else of its group, or else the replay's. Where a paint has
@@ -160,9 +171,10 @@ void parseReplay(SceneBuilder& builder, const TomlValue& table, const TableReade
   rejectTablesThatMove(top);
   if (overrides.dtLog) builder.errors.add("a dt log cannot be given for a replay, whose trace has the times");
   auto trace = readTraceOf(builder, reader);
-  const LookRules rules = readLookRules(builder, reader, trace ? &*trace : nullptr);
+  LookRules rules = readLookRules(builder, reader, trace ? &*trace : nullptr);
   const auto start = reader.givenNumber("start");
   if (!trace) return;
+  addThemeLooks(builder, reader, *trace, rules);
   const double end = trace->frames.back().time;
   if (start && *start > end) {
     reader.reject("start",

@@ -167,7 +167,7 @@ void parseSpawn(SceneBuilder& builder, const TomlValue& table) {
   Body& body = spawner.prototype;
   body.spawner = static_cast<std::uint32_t>(builder.scene.world.spawners.size());
   const bool shapeKnown = readBodyProperties(builder, reader, body);
-  spawner.looks = readLooks(builder, reader, true);
+  spawner.looks = readLooks(builder, reader, body, true);
   body.look = spawner.looks.front();
 
   if (shapeKnown) {

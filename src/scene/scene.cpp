@@ -2,7 +2,12 @@
 
 #include "src/scene/limits.h"
 #include "src/scene/parse_clock.h"
+#include "src/scene/parse_input.h"
+#include "src/scene/parse_overlay.h"
+#include "src/scene/parse_panel.h"
+#include "src/scene/parse_plot.h"
 #include "src/scene/parse_replay.h"
+#include "src/scene/parse_timeline.h"
 #include "src/scene/quote.h"
 #include "src/scene/scene_builder.h"
 #include "src/scene/text_file.h"
@@ -16,38 +21,6 @@
 
 namespace offstage {
 namespace {
-
-/// A table of which a scene has one, `[frame]`; null when it is absent or no table.
-const TomlValue* singleTable(const TableReader& top, std::string_view key) {
-  const TomlValue* value = top.find(key);
-  if (value == nullptr || value->table() != nullptr) return value;
-  reportMismatch(*value, top.described(key), fmt::format("one table, [{}]", key), top.errors());
-  return nullptr;
-}
-
-void parseSingle(SceneBuilder& builder, const TableReader& top, std::string_view key,
-                 void (*parse)(SceneBuilder&, const TomlValue&)) {
-  if (const TomlValue* table = singleTable(top, key)) parse(builder, *table);
-}
-
-/// Tables of which a scene has any number, `[[body]]`.
-void parseEach(SceneBuilder& builder, const TableReader& top, std::string_view key,
-               void (*parse)(SceneBuilder&, const TomlValue&)) {
-  const TomlValue* value = top.find(key);
-  if (value == nullptr) return;
-  const std::string wanted = fmt::format("an array of tables, [[{}]]", key);
-  if (value->array() == nullptr || value->array()->empty()) {
-    reportMismatch(*value, top.described(key), wanted, builder.errors);
-    return;
-  }
-  for (const TomlValue& element : *value->array()) {
-    if (element.table() == nullptr) {
-      reportMismatch(element, "every value of " + top.described(key), "a table", builder.errors);
-    } else {
-      parse(builder, element);
-    }
-  }
-}
 
 /// Takes the command line's scale and holds the picture's size in output pixels within bounds.
 void checkScale(SceneBuilder& builder, const TableReader& top, const std::optional<double>& given) {
@@ -83,25 +56,45 @@ void parseTables(SceneBuilder& builder, const TomlValue& root, const SceneOverri
       top.integer("seed", std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max());
   if (overrides.seed) scene.world.seed = *overrides.seed;
 
+  parseSingle(builder, top, "theme", parseTheme);
+  scene.background = scene.theme.background;
   parseSingle(builder, top, "frame", parseFrame);
   checkScale(builder, top, overrides.scale);
   scene.world.pane = Vec2(scene.size[0], scene.size[1]);
   parseClock(builder, singleTable(top, "clock"), top, overrides);
   if (const TomlValue* replay = singleTable(top, "replay")) parseReplay(builder, *replay, top, overrides);
-  parseSingle(builder, top, "golden", parseGolden);
   // The view and the world's integrator come before everything that they hold for.
   parseSingle(builder, top, "view", parseView);
   parseSingle(builder, top, "world", parseWorld);
   parseSingle(builder, top, "walls", parseWalls);
+  parseInput(builder, singleTable(top, "input"), overrides);
   // Names come before what refers to them: groups and bodies before collisions and forces.
   parseEach(builder, top, "body", parseBody);
+  parseEach(builder, top, "bodies", parseBodies);
   parseEach(builder, top, "spawn", parseSpawn);
   parseEach(builder, top, "launch", parseLaunch);
   parseEach(builder, top, "collide", parseCollide);
+  parseOverlays(builder, top);
   const std::size_t errorsBefore = builder.errors.count();
   parseEach(builder, top, "force", parseForce);
   // Behind a wrong force, what has a closed form cannot be told.
   if (builder.errors.count() == errorsBefore) checkExactBodies(builder, errorsBefore == 0);
+  // What reads only the clock comes behind the bodies, to which pauses and cameras point.
+  parseTimeline(builder, top, overrides);
+  parseSingle(builder, top, "golden", parseGolden);
+  // Plots and texts show values of what all others have named.
+  parseEach(builder, top, "plot", parsePlot);
+  parseEach(builder, top, "text", parseText);
+}
+
+/// A scene from a tree, but for its panels.
+Scene parseWhole(const TomlValue& root, const std::filesystem::path& file, const SceneOverrides& overrides) {
+  SceneBuilder builder(file);
+  parseTables(builder, root, overrides);
+  builder.errors.throwIfAny();
+  if (builder.scene.world.groups.empty()) builder.scene.world.groups = WorldSetup{}.groups;
+  builder.scene.looks = builder.looks.take();
+  return std::move(builder.scene);
 }
 
 } // namespace
@@ -118,13 +111,13 @@ Scene parseScene(std::string_view text, const std::filesystem::path& file, const
   const auto root = parseToml(text, file.string(), syntaxError);
   if (!root) throw SceneError({syntaxError});
 
-  SceneBuilder builder(file);
-  parseTables(builder, *root, overrides);
-  builder.errors.throwIfAny();
-  if (builder.scene.world.groups.empty()) builder.scene.world.groups = WorldSetup{}.groups;
-  builder.scene.looks = builder.looks.take();
-  builder.scene.text = text;
-  return std::move(builder.scene);
+  Scene scene = parseWhole(*root, file, overrides);
+  const auto parse = [&](const TomlValue& tree, const SceneOverrides& own) {
+    return parseWhole(tree, file, own);
+  };
+  parsePanels(*root, overrides, parse, scene);
+  scene.text = text;
+  return scene;
 }
 
 } // namespace offstage

@@ -2,7 +2,13 @@
 
 #include "src/scene/golden.h"
 #include "src/scene/look.h"
+#include "src/scene/overlay.h"
+#include "src/scene/panel.h"
+#include "src/scene/plot.h"
 #include "src/scene/replay.h"
+#include "src/scene/text_item.h"
+#include "src/scene/theme.h"
+#include "src/scene/timeline.h"
 #include "src/sim/clock.h"
 #include "src/sim/world_setup.h"
 
@@ -27,10 +33,17 @@ struct Scene {
   double scale = 1.0;                    ///< output pixels per scene pixel
   Clock clock = Clock::fixed(60.0, 600); ///< already cut to the duration
   WorldSetup world;
-  std::vector<Look> looks;            ///< Body::look is an index into these
-  std::vector<std::string> bodyNames; ///< by id of WorldSetup::bodies; empty where unnamed
-  std::shared_ptr<const Replay> replay; ///< null: the world is simulated; else it is empty
-  std::optional<GoldenMoments> golden;  ///< what `offstage golden` keeps of it
+  std::vector<Look> looks;                  ///< Body::look is an index into these
+  std::vector<std::string> bodyNames;       ///< by id of WorldSetup::bodies; empty where unnamed
+  std::vector<std::filesystem::path> files; ///< read beside its text: tables of bodies, recorded input
+  Overlays overlays{};                      ///< what is drawn over and under the bodies
+  std::vector<Plot> plots{};                ///< drawn over the bodies, below the texts
+  Panels panels{};                          ///< the worlds that are drawn instead of this one
+  std::shared_ptr<const Replay> replay;     ///< null: the world is simulated; else it is empty
+  std::optional<GoldenMoments> golden;      ///< what `offstage golden` keeps of it
+  Timeline timeline;                        ///< what it says about its video's time
+  Theme theme = themeOf(ThemeName::None);
+  std::vector<TextItem> texts; ///< drawn over the bodies, in this order
 };
 
 /// What a command line replaces in a scene, as if it were written there.
@@ -41,6 +54,7 @@ struct SceneOverrides {
   std::optional<double> duration; ///< s
   std::optional<std::int64_t> seed;
   std::optional<double> scale;
+  std::optional<std::filesystem::path> input; ///< [input] log; relative to the working directory
 };
 
 /// Reads and checks a scene file. Throws SceneError with every error of the file, or Error(BadInput) when it

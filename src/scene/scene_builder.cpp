@@ -92,6 +92,14 @@ std::optional<Anchor> SceneBuilder::readAnchor(const TableReader& reader, std::s
   return Anchor{view.position({(*point)[0], (*point)[1]}), std::nullopt};
 }
 
+bool SceneBuilder::isPointer(const TableReader& reader, std::string_view key) {
+  const TomlValue* value = reader.find(key);
+  const auto* word = value == nullptr ? nullptr : std::get_if<std::string>(&value->data);
+  if (word == nullptr || *word != "mouse" || bodies.contains("mouse")) return false;
+  if (!input) reader.reject(key, "is the pointer of recorded input, but the scene has no [input]");
+  return true;
+}
+
 std::optional<std::filesystem::path> SceneBuilder::readFile(const TableReader& reader, std::string_view key) {
   const auto name = reader.givenString(key);
   if (!name) return std::nullopt;
@@ -110,6 +118,36 @@ std::optional<std::filesystem::path> SceneBuilder::readFile(const TableReader& r
   if (!std::filesystem::status_known(status)) return reject("which cannot be looked up: " + error.message());
   if (!std::filesystem::is_regular_file(status)) return reject("which is no regular file");
   return file;
+}
+
+const TomlValue* singleTable(const TableReader& top, std::string_view key) {
+  const TomlValue* value = top.find(key);
+  if (value == nullptr || value->table() != nullptr) return value;
+  reportMismatch(*value, top.described(key), fmt::format("one table, [{}]", key), top.errors());
+  return nullptr;
+}
+
+void parseSingle(SceneBuilder& builder, const TableReader& top, std::string_view key,
+                 void (*parse)(SceneBuilder&, const TomlValue&)) {
+  if (const TomlValue* table = singleTable(top, key)) parse(builder, *table);
+}
+
+void parseEach(SceneBuilder& builder, const TableReader& top, std::string_view key,
+               void (*parse)(SceneBuilder&, const TomlValue&)) {
+  const TomlValue* value = top.find(key);
+  if (value == nullptr) return;
+  const std::string wanted = fmt::format("an array of tables, [[{}]]", key);
+  if (value->array() == nullptr || value->array()->empty()) {
+    reportMismatch(*value, top.described(key), wanted, builder.errors);
+    return;
+  }
+  for (const TomlValue& element : *value->array()) {
+    if (element.table() == nullptr) {
+      reportMismatch(element, "every value of " + top.described(key), "a table", builder.errors);
+    } else {
+      parse(builder, element);
+    }
+  }
 }
 
 } // namespace offstage

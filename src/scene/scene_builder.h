@@ -1,6 +1,7 @@
 #pragma once
 
 #include "src/scene/error_list.h"
+#include "src/scene/input_log.h"
 #include "src/scene/look_table.h"
 #include "src/scene/scene.h"
 #include "src/scene/table_reader.h"
@@ -28,7 +29,11 @@ struct SceneBuilder {
   Scene scene;
   ErrorList errors;
   View view;
+  double videoSeconds =
+      0.0; ///< s: how long the video is, as far as the scene itself can tell; after parseTimeline
   Integrator integrator = Integrator::SemiImplicitEuler; ///< the world's
+  std::optional<InputLog> input;                         ///< [input]
+  bool substepsGiven = false; ///< by [clock]
   LookTable looks;
   std::map<std::string, std::uint32_t, std::less<>> groups; ///< by name: index into WorldSetup::groups
   std::map<std::string, std::uint32_t, std::less<>> bodies; ///< by name: id
@@ -49,27 +54,42 @@ struct SceneBuilder {
   std::optional<std::uint32_t> findBody(const TomlValue& value, const std::string& what);
   /// `[x, y]` in the scene's units or a body's name.
   std::optional<Anchor> readAnchor(const TableReader& reader, std::string_view key);
+  /// Whether the key names the pointer of the recorded input: "mouse", where no body has that name. Reported
+  /// when there is no recording.
+  bool isPointer(const TableReader& reader, std::string_view key);
   /// A file that the scene names: beside the scene, and there. Else reported and nothing returned.
   std::optional<std::filesystem::path> readFile(const TableReader& reader, std::string_view key);
   /// Reports when [view] has made one of a table's numbers infinite.
   void requireFinite(const TomlValue& table, const std::string& label, std::initializer_list<double> numbers);
 };
 
+/// A table of which a scene has one, `[frame]`; null when it is absent or no table, which is reported.
+const TomlValue* singleTable(const TableReader& top, std::string_view key);
+/// Calls `parse` for that table, if there is one.
+void parseSingle(SceneBuilder& builder, const TableReader& top, std::string_view key,
+                 void (*parse)(SceneBuilder&, const TomlValue&));
+/// Calls `parse` for each of the tables of which a scene has any number, `[[body]]`.
+void parseEach(SceneBuilder& builder, const TableReader& top, std::string_view key,
+               void (*parse)(SceneBuilder&, const TomlValue&));
+
 inline Vec2 toVec2(const std::array<double, 2>& pair) {
   return {pair[0], pair[1]};
 }
 
 // One function a table of the format. Each reads the table(s) of its name and reports every error in them.
+void parseTheme(SceneBuilder& builder, const TomlValue& table); ///< before all that has a look
 void parseFrame(SceneBuilder& builder, const TomlValue& table);
 void parseView(SceneBuilder& builder, const TomlValue& table);
 void parseWorld(SceneBuilder& builder, const TomlValue& table);
 void parseWalls(SceneBuilder& builder, const TomlValue& table);
 void parseBody(SceneBuilder& builder, const TomlValue& table);
+void parseBodies(SceneBuilder& builder, const TomlValue& table);
 void parseSpawn(SceneBuilder& builder, const TomlValue& table);
 void parseLaunch(SceneBuilder& builder, const TomlValue& table);
 void parseCollide(SceneBuilder& builder, const TomlValue& table);
 void parseForce(SceneBuilder& builder, const TomlValue& table);
-void parseGolden(SceneBuilder& builder, const TomlValue& table); ///< after the clock is known
+void parseGolden(SceneBuilder& builder, const TomlValue& table); ///< after the timeline is known
+void parseText(SceneBuilder& builder, const TomlValue& table);
 
 /// Reports each body, spawn and launch with the integrator "exact" whose motion has no closed form; after all
 /// tables. `startsAreKnown`: every body's numbers are right, so that its start can be judged too.

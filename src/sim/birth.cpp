@@ -61,14 +61,15 @@ Body drawBody(const Spawner& spawner, std::uint32_t index, std::int64_t number, 
   return body;
 }
 
-bool isDue(const Launch::Moment& moment, std::int64_t frame, double before, double now) {
-  if (moment.frame) return *moment.frame == frame;
-  return now >= moment.time && (frame == 1 || before < moment.time);
+bool isDue(const Launch::Moment& moment, const StepSpan& step) {
+  // A frame may have no step; its launches then wait for the next one.
+  if (moment.frame) return step.frameBefore < *moment.frame && *moment.frame <= step.frame;
+  return step.now >= moment.time && (step.frameBefore == 0 || step.before < moment.time);
 }
 
-Shot aim(const Launch& launch, std::span<const Body> bodies) {
-  const std::optional<Vec2> from = locate(launch.from, bodies);
-  const std::optional<Vec2> toward = locate(launch.toward, bodies);
+Shot aim(const Launch& launch, const Launch::Moment& moment, std::span<const Body> bodies) {
+  const std::optional<Vec2> from = moment.from ? moment.from : locate(launch.from, bodies);
+  const std::optional<Vec2> toward = moment.toward ? moment.toward : locate(launch.toward, bodies);
   if (!from) return {launch.from.point, std::nullopt};
   if (!toward) return {*from, std::nullopt};
   const Vec2 d = *toward - *from;

@@ -22,12 +22,15 @@ struct Body {
   bool feelsGravity = true; ///< false: the world's gravity is not added
   bool fixed = false;       ///< never moves, still collides (as if its mass were infinite and its velocity 0)
   bool removedOutside = false;      ///< goes as soon as it is wholly outside the pane
+  bool continuous = false;          ///< its path is swept, so that it steps over nobody (SweptContacts)
   Vec2 position = Vec2::Zero();     ///< px: a circle's centre, a rectangle's upper-left corner
   Vec2 velocity = Vec2::Zero();     ///< px/s
   Vec2 acceleration = Vec2::Zero(); ///< px/s²: its own, added to gravity
   double radius = 0.0;              ///< px, ≥ 0; of a rectangle 0
-  Vec2 size = Vec2::Zero();         ///< px: a rectangle's width and height, ≥ 0; of a circle 0
-  double mass = 1.0;                ///< > 0
+  double restitution = 1.0; ///< 0 … 1: a pair has its rule's times the geometric mean of its bodies'
+  Vec2 size = Vec2::Zero(); ///< px: a rectangle's width and height, ≥ 0; of a circle 0
+  double mass = 1.0;        ///< > 0
+  double friction = 0.0;    ///< ≥ 0: Coulomb's coefficient; a pair has the geometric mean of its bodies'
 
   static constexpr std::uint32_t kNoSpawner = 0xffffffffU;
 };

@@ -16,16 +16,16 @@ const std::array<Vec2, 4>& outwardNormals() {
   return kNormals;
 }
 
-std::optional<Contact> betweenCircles(const Body& first, const Body& second) {
+std::optional<Contact> betweenCircles(const Body& first, const Body& second, double reach) {
   const Vec2 d = second.position - first.position;
   const double distance = length(d);
   const double touch = first.radius + second.radius;
-  if (!(distance < touch)) return std::nullopt;
+  if (!(distance < touch + reach)) return std::nullopt;
   return Contact{distance > 0.0 ? Vec2(d / distance) : Vec2(1.0, 0.0), distance, touch};
 }
 
 /// With the normal from the rectangle to the circle.
-std::optional<Contact> betweenRectangleAndCircle(const Body& rectangle, const Body& circle) {
+std::optional<Contact> betweenRectangleAndCircle(const Body& rectangle, const Body& circle, double reach) {
   const Vec2& low = rectangle.position;
   const Vec2 high = low + rectangle.size;
   const Vec2& c = circle.position;
@@ -36,19 +36,19 @@ std::optional<Contact> betweenRectangleAndCircle(const Body& rectangle, const Bo
   const auto sideNormal = [&] {
     return outwardNormals()[static_cast<std::size_t>(nearest - depths.begin())];
   };
-  if (*nearest >= 0.0) {                                   // the centre is inside
-    if (!(-*nearest < circle.radius)) return std::nullopt; // a point on the edge
+  if (*nearest >= 0.0) {                                           // the centre is inside
+    if (!(-*nearest < circle.radius + reach)) return std::nullopt; // a point on the edge
     return Contact{sideNormal(), -*nearest, circle.radius};
   }
   const Vec2 closest(std::clamp(c.x(), low.x(), high.x()), std::clamp(c.y(), low.y(), high.y()));
   const Vec2 d = c - closest;
   const double distance = length(d);
-  if (!(distance < circle.radius)) return std::nullopt;
+  if (!(distance < circle.radius + reach)) return std::nullopt;
   // Nearer than a double's square can tell from 0, the nearest side gives the direction.
   return Contact{distance > 0.0 ? Vec2(d / distance) : sideNormal(), distance, circle.radius};
 }
 
-std::optional<Contact> betweenRectangles(const Body& first, const Body& second) {
+std::optional<Contact> betweenRectangles(const Body& first, const Body& second, double reach) {
   const Vec2& low = first.position;
   const Vec2 high = low + first.size;
   const Vec2& otherLow = second.position;
@@ -57,7 +57,7 @@ std::optional<Contact> betweenRectangles(const Body& first, const Body& second) 
   const std::array<double, 4> ways{otherHigh.x() - low.x(), high.x() - otherLow.x(), otherHigh.y() - low.y(),
                                    high.y() - otherLow.y()};
   const auto least = std::min_element(ways.begin(), ways.end()); // the first of equals
-  if (!std::all_of(ways.begin(), ways.end(), [](double way) { return way > 0.0; })) return std::nullopt;
+  if (!std::all_of(ways.begin(), ways.end(), [&](double way) { return way > -reach; })) return std::nullopt;
   return Contact{outwardNormals()[static_cast<std::size_t>(least - ways.begin())], -*least, 0.0};
 }
 
@@ -65,15 +65,31 @@ Vec2 velocityOf(const Body& body) {
   return body.fixed ? Vec2::Zero() : body.velocity;
 }
 
+/// Brings the tangential speeds of two bodies nearer to each other, as far as friction reaches. `changed`: by
+/// how much their closing speed has changed.
+void rub(double friction, double changed, const Body& first, const Body& second, double& v1t, double& v2t) {
+  const double w1 = first.fixed ? 0.0 : 1.0 / first.mass;
+  const double w2 = second.fixed ? 0.0 : 1.0 / second.mass;
+  if (!(w1 + w2 > 0.0)) return;
+  const double most = friction * std::abs(changed);
+  const double slip = std::clamp(v2t - v1t, -most, most);
+  v1t += slip * (w1 / (w1 + w2));
+  v2t -= slip * (w2 / (w1 + w2));
+}
+
 } // namespace
 
-std::optional<Contact> findContact(const Body& first, const Body& second) {
+double pairOf(double first, double second) {
+  return first == second ? first : std::sqrt(first * second);
+}
+
+std::optional<Contact> findContact(const Body& first, const Body& second, double reach) {
   const bool firstIsCircle = first.shape == Shape::Circle;
   const bool secondIsCircle = second.shape == Shape::Circle;
-  if (firstIsCircle && secondIsCircle) return betweenCircles(first, second);
-  if (!firstIsCircle && !secondIsCircle) return betweenRectangles(first, second);
-  if (secondIsCircle) return betweenRectangleAndCircle(first, second);
-  std::optional<Contact> contact = betweenRectangleAndCircle(second, first);
+  if (firstIsCircle && secondIsCircle) return betweenCircles(first, second, reach);
+  if (!firstIsCircle && !secondIsCircle) return betweenRectangles(first, second, reach);
+  if (secondIsCircle) return betweenRectangleAndCircle(first, second, reach);
+  std::optional<Contact> contact = betweenRectangleAndCircle(second, first, reach);
   if (contact) contact->normal = -contact->normal;
   return contact;
 }
@@ -93,9 +109,9 @@ void respond(const ContactRule& rule, const Contact& contact, Body& first, Body&
   const Vec2 t(-n.y(), n.x());
   const Vec2 v1 = velocityOf(first);
   const Vec2 v2 = velocityOf(second);
-  const double v1t = dot(v1, t);
+  double v1t = dot(v1, t);
   const double v1n = dot(v1, n);
-  const double v2t = dot(v2, t);
+  double v2t = dot(v2, t);
   const double v2n = dot(v2, n);
   Vec2 new1;
   Vec2 new2;
@@ -109,15 +125,18 @@ void respond(const ContactRule& rule, const Contact& contact, Body& first, Body&
     double after2 = v1n;
     const double m1 = first.mass;
     const double m2 = second.mass;
-    const double returned = rule.restitution * (v1n - v2n);
+    const double restitution = rule.restitution * pairOf(first.restitution, second.restitution);
+    const double returned = restitution * (v1n - v2n);
     if (first.fixed || second.fixed) {
       after1 = v2n - returned; // the speed of the fixed one, 0, and what comes back
       after2 = v1n + returned;
-    } else if (m1 != m2 || rule.restitution != 1.0) {
+    } else if (m1 != m2 || restitution != 1.0) {
       const double momentum = m1 * v1n + m2 * v2n;
       after1 = (momentum - m2 * returned) / (m1 + m2);
       after2 = (momentum + m1 * returned) / (m1 + m2);
     }
+    const double friction = pairOf(first.friction, second.friction);
+    if (friction > 0.0) rub(friction, (v1n - v2n) + returned, first, second, v1t, v2t);
     new1 = t * v1t + n * after1;
     new2 = t * v2t + n * after2;
   }

@@ -27,8 +27,12 @@ struct Contact {
   double touch; ///< px: they touch while distance < touch, strictly; touch − distance is how far they overlap
 };
 
-/// The contact of two bodies, or nothing when they do not touch (or when a coordinate is NaN).
-std::optional<Contact> findContact(const Body& first, const Body& second);
+/// The contact of two bodies, or nothing when they do not touch (or when a coordinate is NaN). With a `reach`
+/// (px) above 0 also of bodies whose gap, distance − touch, is below it.
+std::optional<Contact> findContact(const Body& first, const Body& second, double reach = 0.0);
+
+/// What two bodies have of a property of their material: the geometric mean, exactly so when they are equal.
+double pairOf(double first, double second);
 
 /// Whether a contact changes velocities by this rule: while approaching, v1n > v2n, or always. A fixed body
 /// counts as at rest; two of them have nothing to change.
@@ -48,6 +52,9 @@ double closingSpeed(const Contact& contact, const Body& first, const Body& secon
 ///         rounding:
 ///           v1 = t·v1t + n·v2n, v2 = t·v2t + n·v1n.
 ///         From a fixed body (m → ∞, at rest) v1n' = −e·v1n.
+///         e is the rule's restitution times pairOf() the bodies'. With a friction f = pairOf() the bodies'
+///         above 0, Coulomb's law takes from the tangential speeds' difference at most f times what the
+///         normal speeds' difference changed by (Goldsmith, section 2.3); bodies do not rotate.
 /// Slide   the lecture slide's printed formula, v1 = T1 + N1 − N2 and v2 = T2 + N2 − N1 with the vectors
 ///         T = t·vt, N = n·vn. It is not physical: it keeps neither momentum nor energy, and doubles the
 ///         closing speed of a pair.

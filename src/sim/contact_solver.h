@@ -1,11 +1,12 @@
 #pragma once
 
 #include "src/sim/body.h"
+#include "src/sim/broadphase.h"
 #include "src/sim/contact.h"
 #include "src/sim/event.h"
+#include "src/sim/rule_table.h"
 #include "src/sim/world_setup.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -13,7 +14,9 @@
 namespace offstage {
 
 /// Finds touching pairs and applies the rule of their groups: pairs i < j in order of creation, one pass, in
-/// place, so that later pairs see what earlier ones did.
+/// place, so that later pairs see what earlier ones did. Pairs that are too far apart to touch are left out
+/// by a grid, also while bodies are pushed apart during the pass: the result has the bits of the plain double
+/// loop.
 class ContactSolver {
 public:
   ContactSolver() = default;
@@ -26,20 +29,18 @@ public:
              std::vector<Event>& events);
 
 private:
-  static constexpr std::uint32_t kNone = 0xffffffffU;
+  static constexpr std::uint32_t kGone = 0xffffffffU; ///< removed at once: touches nobody else
 
-  [[nodiscard]] std::uint32_t ruledIndex(std::uint32_t group) const;
+  void solveWithThoseBehind(std::uint32_t a, std::span<Body> bodies, std::span<std::uint8_t> removed,
+                            const Event& stamp, std::vector<Event>& events);
 
-  std::vector<ContactRule> rules_;
-  std::vector<std::uint32_t> ruledGroups_; ///< the groups that have a rule, ascending
-  std::vector<std::uint32_t> table_;       ///< by two indices into ruledGroups_: index of the rule, or kNone
-  /// A body that has a rule; kept between steps only to spare allocations.
-  struct Candidate {
-    std::size_t body;
-    std::uint32_t group; ///< index into ruledGroups_
-    bool gone;           ///< removed at once: touches nobody else
-  };
-  std::vector<Candidate> candidates_;
+  RuleTable rules_;
+
+  // Of a pass; kept between steps to spare allocations.
+  std::vector<std::uint32_t> candidates_; ///< index of each body that has a rule
+  std::vector<std::uint32_t> groups_;     ///< by candidate: its group's number in rules_, or kGone
+  Broadphase broadphase_;
+  std::vector<std::uint32_t> near_;
 };
 
 } // namespace offstage

@@ -33,6 +33,8 @@ void checkBody(const WorldSetup& setup, const Body& body, const std::string& whe
   require(isLength(body.size.x()) && isLength(body.size.y()), where,
           "the size must be finite and not negative");
   require(std::isfinite(body.mass) && body.mass > 0.0, where, "the mass must be finite and above 0");
+  require(body.restitution >= 0.0 && body.restitution <= 1.0, where, "the restitution must be from 0 to 1");
+  require(isLength(body.friction), where, "the friction must be finite and not negative");
 }
 
 void checkPrototype(const WorldSetup& setup, const Body& prototype, const std::string& where) {
@@ -103,6 +105,9 @@ void checkSetup(const WorldSetup& setup) {
   require(isLength(setup.pane.x()) && isLength(setup.pane.y()), "pane",
           "its size must be finite and not negative");
   require(setup.substeps >= 1, "substeps", "there must be at least 1");
+  require(setup.contactModel == ContactModel::Lecture || setup.walls.clamp, "walls",
+          "the solver's walls always clamp");
+  require(setup.iterations >= 1, "iterations", "there must be at least 1");
   checkEach(setup.forces, "force",
             [&](const Force& force, const std::string& where) { checkForce(setup, force, where); });
   checkEach(setup.bodies, "body",
@@ -116,6 +121,9 @@ void checkSetup(const WorldSetup& setup) {
     checkGroup(setup, rule.groupA, where);
     checkGroup(setup, rule.groupB, where);
     require(rule.restitution >= 0.0 && rule.restitution <= 1.0, where, "the restitution must be from 0 to 1");
+    require(setup.contactModel == ContactModel::Lecture || rule.response != Response::Bounce ||
+                (rule.separate && rule.approachingOnly),
+            where, "the solver's bounces always separate, and only those that approach");
     require(pairs.insert(std::minmax(rule.groupA, rule.groupB)).second, where,
             "there is a rule for these two groups already");
   });

@@ -1,6 +1,8 @@
 #include "src/sim/walls.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace offstage {
@@ -15,6 +17,11 @@ struct Reach {
 Reach reach(const Body& body, int axis) {
   if (body.shape == Shape::Circle) return {body.radius, body.radius};
   return {0.0, body.size[axis]};
+}
+
+/// Takes at most `most` from a speed.
+void rub(double most, double& speed) {
+  speed -= std::clamp(speed, -most, most);
 }
 
 } // namespace
@@ -40,7 +47,9 @@ void bounceOffWalls(const Walls& walls, const Vec2& pane, Body& body, const Even
     event.q = v;
     events.push_back(event);
     if (walls.clamp) x = lower ? before : pane[axis] - after;
-    v = -v * *k;
+    if (body.friction > 0.0)
+      rub(body.friction * (1.0 + *k * body.restitution) * std::abs(v), body.velocity[1 - axis]);
+    v = -v * (*k * body.restitution);
   }
 }
 

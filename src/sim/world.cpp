@@ -34,19 +34,29 @@ Event stampOf(const Tick& tick) {
 } // namespace
 
 World::World(WorldSetup setup)
-    : setup_(std::move(setup)), random_(setup_.seed), spawned_(setup_.spawners.size(), 0) {
+    : setup_(std::move(setup)),
+      random_(setup_.seed),
+      spawned_(setup_.spawners.size(), 0),
+      alive_(setup_.spawners.size(), 0) {
   checkSetup(setup_);
-  for (std::size_t i = 0; i < setup_.bodies.size(); ++i) setup_.bodies[i].id = static_cast<std::uint32_t>(i);
   mover_ = Mover(setup_);
-  contacts_ = ContactSolver(setup_.contacts);
-  bodies_.reserve(setup_.bodies.size());
-  for (const Body& body : setup_.bodies) create(body, time_);
+  std::vector<ContactRule> onePairAtATime = setup_.contacts;
+  if (setup_.contactModel == ContactModel::Solver) {
+    std::erase_if(onePairAtATime, [](const ContactRule& rule) { return rule.response == Response::Bounce; });
+    pile_ = PileSolver(setup_);
+  }
+  swept_ = SweptContacts(setup_);
+  contacts_ = ContactSolver(onePairAtATime);
+  const std::vector<Body> first = std::exchange(setup_.bodies, {});
+  bodies_.reserve(first.size());
+  for (const Body& body : first) create(body, time_);
 }
 
 void World::create(Body body, double time) {
   body.id = nextId_;
   mover_.add(setup_, body, time);
   bodies_.push_back(body);
+  if (body.spawner < alive_.size()) ++alive_[body.spawner];
   ++nextId_;
 }
 
@@ -56,23 +66,52 @@ void World::step(const Tick& tick) {
                                 " does not follow frame " + std::to_string(frame_));
   }
   events_.clear();
+  frame_ = tick.frame;
+  const double dt = setup_.stepping.dt;
+  switch (setup_.stepping.form) {
+  case Stepping::Form::Variable:
+    advance(tick);
+    break;
+  case Stepping::Form::Fixed:
+    advance({tick.frame, static_cast<double>(++steps_) * dt, dt});
+    break;
+  case Stepping::Form::Clamped:
+    while (tick.time - time_ > dt) advance({tick.frame, time_ + dt, dt});
+    advance({tick.frame, tick.time, tick.time - time_});
+    break;
+  case Stepping::Form::Accumulator:
+    // Counted in steps, so that no rounding of an accumulated rest adds up.
+    while (static_cast<double>(steps_ + 1) * dt <= tick.time) {
+      beforeStep_ = bodies_;
+      advance({tick.frame, static_cast<double>(++steps_) * dt, dt});
+    }
+    ahead_ = std::clamp((tick.time - time_) / dt, 0.0, 1.0);
+    break;
+  }
+}
+
+void World::advance(const Tick& tick) {
   launchDue(tick);
   spawnDue(Spawner::When::BeforeUpdate, tick, time_);
-  const double h = tick.dt / setup_.substeps;
-  for (int j = 0; j < setup_.substeps; ++j) {
-    const double end = j + 1 == setup_.substeps ? tick.time : time_ + (j + 1) * h;
-    substep(time_ + j * h, h, end, stampOf(tick));
+  if (setup_.contactModel == ContactModel::Solver) {
+    pileStep(tick);
+  } else {
+    const double h = tick.dt / setup_.substeps;
+    for (int j = 0; j < setup_.substeps; ++j) {
+      const double end = j + 1 == setup_.substeps ? tick.time : time_ + (j + 1) * h;
+      substep(time_ + j * h, h, end, stampOf(tick));
+    }
   }
-  frame_ = tick.frame;
   time_ = tick.time;
+  steppedFrame_ = tick.frame;
   spawnDue(Spawner::When::AfterUpdate, tick, time_);
 }
 
 void World::launchDue(const Tick& tick) {
   for (const Launch& launch : setup_.launches) {
     for (const Launch::Moment& moment : launch.moments) {
-      if (!isDue(moment, tick.frame, time_, tick.time)) continue;
-      const Shot shot = aim(launch, bodies_);
+      if (!isDue(moment, {steppedFrame_, tick.frame, time_, tick.time})) continue;
+      const Shot shot = aim(launch, moment, bodies_);
       if (!shot.velocity) {
         events_.push_back(eventOf(stampOf(tick), EventKind::NoFire, nextId_, shot.from));
         continue;
@@ -92,10 +131,7 @@ void World::spawnDue(Spawner::When when, const Tick& tick, double time) {
     const auto index = static_cast<std::uint32_t>(i);
     std::int64_t& made = spawned_[i];
     if (spawner.when != when || (spawner.limit && made >= *spawner.limit)) continue;
-    const auto count = spawner.count == Spawner::Count::Spawned
-                           ? made
-                           : std::count_if(bodies_.begin(), bodies_.end(),
-                                           [index](const Body& b) { return b.spawner == index; });
+    const std::int64_t count = spawner.count == Spawner::Count::Spawned ? made : alive_[i];
     if (!(std::floor(tick.time / spawner.every) > static_cast<double>(count))) continue;
     const Body body = drawBody(spawner, index, made, random_);
     ++made;
@@ -105,6 +141,7 @@ void World::spawnDue(Spawner::When when, const Tick& tick, double time) {
 }
 
 void World::substep(double t, double h, double end, const Event& stamp) {
+  const bool sweeps = swept_.begin(bodies_);
   mover_.begin(bodies_, t, h);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
@@ -112,11 +149,31 @@ void World::substep(double t, double h, double end, const Event& stamp) {
     const Motion motion = mover_.next(bodies_, i, t, h, end);
     body.position = motion.position;
     body.velocity = motion.velocity;
-    bounceOffWalls(setup_.walls, setup_.pane, body, stamp, events_);
+    if (!body.continuous) bounceOffWalls(setup_.walls, setup_.pane, body, stamp, events_);
   }
+  if (sweeps) sweep(h, stamp);
   removed_.assign(bodies_.size(), 0);
   contacts_.solve(bodies_, removed_, stamp, events_);
   removeGone(stamp);
+}
+
+void World::pileStep(const Tick& tick) {
+  const Event stamp = stampOf(tick);
+  const bool sweeps = swept_.begin(bodies_);
+  pile_.step(bodies_, mover_, time_, tick.dt, tick.time, stamp, events_);
+  if (sweeps) sweep(tick.dt, stamp);
+  removed_.assign(bodies_.size(), 0);
+  contacts_.solve(bodies_, removed_, stamp, events_);
+  removeGone(stamp);
+}
+
+void World::sweep(double h, const Event& stamp) {
+  removed_.assign(bodies_.size(), 0);
+  swept_.solve(bodies_, h, removed_, stamp, events_);
+  for (Body& body : bodies_) { // the pane holds, whatever the sweep left undone
+    if (body.continuous && !body.fixed) bounceOffWalls(setup_.walls, setup_.pane, body, stamp, events_);
+  }
+  removeMarked();
 }
 
 void World::removeGone(const Event& stamp) {
@@ -126,15 +183,33 @@ void World::removeGone(const Event& stamp) {
     removed_[i] = 1;
     events_.push_back(eventOf(stamp, EventKind::Leave, body.id, body.position));
   }
+  removeMarked();
+}
+
+void World::removeMarked() {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (removed_[i] != 0) continue;
+    if (removed_[i] != 0) {
+      if (bodies_[i].spawner < alive_.size()) --alive_[bodies_[i].spawner];
+      continue;
+    }
     if (kept != i) bodies_[kept] = bodies_[i];
     ++kept;
   }
   if (kept == bodies_.size()) return;
   bodies_.resize(kept);
+  pile_.keepOnly(removed_);
   mover_.keepOnly(bodies_);
+}
+
+std::span<const Body> World::shown(std::vector<Body>& blended) const {
+  if (setup_.stepping.form != Stepping::Form::Accumulator) return bodies_;
+  blended = bodies_;
+  for (Body& body : blended) {
+    const Body* before = findBody(beforeStep_, body.id);
+    if (before != nullptr) body.position = before->position + (body.position - before->position) * ahead_;
+  }
+  return blended;
 }
 
 const Body* World::find(std::uint32_t id) const {

@@ -44,6 +44,12 @@ struct ContactRule {
   bool approachingOnly = true; ///< respond only while approaching, v1n > v2n
 };
 
+/// How bodies that touch are dealt with.
+enum class ContactModel : std::uint8_t {
+  Lecture, ///< the rules above, one pair after the other, once a step
+  Solver,  ///< Bounce by PileSolver, which lets piles rest; everything else as in the lecture
+};
+
 /// A number of a spawner: constant, or drawn from the world's java.util.Random.
 struct ConstantNumber {
   double value = 0.0;
@@ -90,6 +96,7 @@ struct Launch {
   struct Moment {
     std::optional<std::int64_t> frame; ///< ≥ 1: in the step to this frame, or
     double time = 0.0; ///< s: in the step to the first frame ≥ 1 whose time is not before it
+    std::optional<Vec2> from{}, toward{}; ///< px: in place of the launch's own; where a pointer was
   };
   std::vector<Moment> moments;
   Anchor from;        ///< read at launch
@@ -98,12 +105,33 @@ struct Launch {
   Body prototype;     ///< radius, group, look, mass, …; position and velocity are filled in
 };
 
+/// How a frame's time becomes steps: the four forms of a main loop (G. Fiedler, "Fix Your Timestep!", 2004).
+struct Stepping {
+  enum class Form : std::uint8_t {
+    /// One step as long as the frame: the lecture's. Results depend on the machine's frame times.
+    Variable,
+    /// One step of `dt`, however long the frame lasted: simulated time runs as fast as there are frames.
+    Fixed,
+    /// Semi-fixed: the frame's time in steps of `dt` and a shorter one for what is left.
+    Clamped,
+    /// As many steps of `dt` as fit into all the time that has passed; what is left over waits. The state
+    /// after n
+    /// steps depends on n alone. Pictures show it between the last two steps.
+    Accumulator,
+  };
+  Form form = Form::Variable;
+  double dt = 1.0 / 60.0; ///< s, > 0
+};
+
 /// Everything that a World starts from. Plain data with every name resolved to an index.
 struct WorldSetup {
   Vec2 pane{640.0, 480.0}; ///< px
   Vec2 gravity{0.0, 9.8};  ///< px/s²
   std::int64_t seed = 0;   ///< of the world's java.util.Random
-  int substeps = 1;        ///< ≥ 1: each frame is this many steps of dt/substeps
+  Stepping stepping;
+  int substeps = 1; ///< ≥ 1: each step is this many of dt/substeps
+  ContactModel contactModel = ContactModel::Lecture;
+  int iterations = 1; ///< ≥ 1: of ContactModel::Solver, its sweeps in each of the substeps
   std::vector<std::string> groups{"bodies"};
   Walls walls;
   std::vector<Body> bodies;          ///< in order of creation; ids are 0, 1, 2, …

@@ -1,7 +1,9 @@
 #include "tests/support/canvas_pictures.h"
 
+#include "render/draw/pen.h"
 #include "render/raster/canvas.h"
 
+#include <cmath>
 #include <ostream>
 
 namespace offstage::test {
@@ -75,6 +77,27 @@ Rgba8 pixel(const Frame& frame, int x, int y) {
   return {frame.rgba.at(at), frame.rgba.at(at + 1), frame.rgba.at(at + 2), frame.rgba.at(at + 3)};
 }
 
+void addEveryLine(Picture& picture) {
+  std::vector<Vec2> zigzag;
+  std::vector<Vec2> curve;
+  for (int i = 0; i < 40; ++i) {
+    zigzag.emplace_back(10.3 + 7.9 * i, 30.2 + 1.7 * ((i * 29) % 31));
+    curve.emplace_back(12.1 + 7.7 * i, 120.4 + 40.0 * std::sin(0.21 * i));
+  }
+  Pen(picture, 2.7, {200, 30, 60, 130}).path(zigzag);
+  Pen(picture, 4.3, {20, 90, 190, 200}).path(curve);
+  Pen(picture, 0.8, {0, 0, 0, 255}).path(std::span(curve).first(2));
+  picture.clips.push_back({40, 30, 250, 160});
+  Pen clipped(picture, 1.9, {10, 140, 60, 220}, static_cast<std::int32_t>(picture.clips.size()) - 1);
+  for (int i = 0; i < 12; ++i) {
+    const Vec2 ray(std::cos(0.55 * i), std::sin(0.55 * i));
+    const Vec2 from = Vec2(160.3, 100.2) + ray * 12.0;
+    clipped.arrow(from, from + ray * (4.0 + 11.0 * i), 9.0);
+    clipped.line(from + Vec2(3.0, 5.0), from + ray * 90.0);
+    clipped.dashes(from - Vec2(9.0, 2.0), from + ray * 70.0, 6.0, 4.0);
+  }
+}
+
 Picture everythingPicture() {
   Picture picture = blankPicture(333, 217, {250, 251, 240, 255});
   auto& primitives = picture.primitives;
@@ -96,6 +119,7 @@ Picture everythingPicture() {
   primitives.push_back(frame);
   primitives.push_back(disc(150.4, 1e6 + 190.3, 1e6, shade(5, 90)));
   primitives.push_back(ring(-3e4, 100.0, 3e4 + 300.2, 3e4 + 303.9, shade(6, 255)));
+  addEveryLine(picture);
   const auto opaque = colorfulImage(64, 48, false);
   const auto translucent = colorfulImage(37, 53, true);
   for (int i = 0; i < 12; ++i) {

@@ -24,6 +24,9 @@ Frame drawOnce(const Picture& picture);
 
 Rgba8 pixel(const Frame& frame, int x, int y);
 
+/// Appends lines, arrows and paths of every kind, some of them clipped, to a picture of at least 333×217 px.
+void addEveryLine(Picture& picture);
+
 /// A picture that uses every program of the canvas, with fractional positions, tiny and huge radii, overlaps,
 /// translucency and image patterns at many scales.
 Picture everythingPicture();

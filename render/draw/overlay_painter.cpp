@@ -1,0 +1,316 @@
+#include "render/draw/overlay_painter.h"
+
+#include "render/draw/axis.h"
+#include "render/draw/pen.h"
+#include "src/scene/palette.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+namespace offstage {
+namespace {
+
+constexpr double kHeadPerWidth = 4.0; ///< an arrow's head in widths of its shaft
+constexpr double kLeastArrow = 1.0;   ///< px: a shorter one is not drawn
+constexpr double kTick = 5.0;         ///< px to either side of a ruler
+constexpr double kLongTick = 9.0;     ///< px: every fifth, and the ends
+constexpr double kMostTicks = 2000.0;
+
+/// A share of 0 … 1 in steps that are not seen. A trail's pieces so change their colour only every few
+/// frames, each at its own time, and most of it need not be drawn again.
+double fadeStep(double share) {
+  constexpr double kSteps = 32.0;
+  return (std::floor(std::clamp(share, 0.0, 1.0) * kSteps) + 0.5) / kSteps;
+}
+
+Rgba8 bytes(const Color& color, double opacity = 1.0) {
+  return {color.red, color.green, color.blue, color.alphaByte(opacity)};
+}
+
+Vec2 toOutput(const Viewport& viewport, const Vec2& p) {
+  return p * viewport.scale + viewport.offset;
+}
+
+/// The nearest place at which an axis-parallel line of whole pixels' width is sharp.
+double sharp(double at, double width) {
+  return std::round(at - 0.5 * width) + 0.5 * width;
+}
+
+Vec2 middleOf(const Body& body) {
+  return centre(body, body.position);
+}
+
+void drawMark(Picture& picture, const MarkOverlay& mark, const Body& body, const Viewport& viewport) {
+  const Vec2 at = toOutput(viewport, middleOf(body));
+  const double reach = 0.5 * mark.size * viewport.scale;
+  Pen pen(picture, mark.width * viewport.scale, bytes(mark.color.value_or(Color{})));
+  if (mark.shape == MarkOverlay::Shape::Dot) {
+    pen.disc(at, reach);
+    return;
+  }
+  // Two strokes of one translucent colour would be darker where they cross, so one is drawn in two halves.
+  const double part = mark.shape == MarkOverlay::Shape::Cross ? std::sqrt(0.5) : 1.0;
+  const Vec2 one = mark.shape == MarkOverlay::Shape::Cross ? Vec2(part, part) : Vec2(1.0, 0.0);
+  const Vec2 two(-one.y(), one.x());
+  const double half = 0.5 * mark.width * viewport.scale;
+  pen.line(at - one * reach, at + one * reach);
+  if (half >= reach) return;
+  pen.line(at + two * half, at + two * reach);
+  pen.line(at - two * half, at - two * reach);
+}
+
+void drawOutline(Picture& picture, const OutlineOverlay& outline, const Body& body,
+                 const Viewport& viewport) {
+  const double own = body.shape == Shape::Circle ? body.radius : 0.5 * length(body.size);
+  const double radius = own + outline.margin;
+  if (radius < 0.0) return;
+  Pen(picture, outline.width * viewport.scale, bytes(outline.color.value_or(Color{})))
+      .circle(toOutput(viewport, middleOf(body)), radius * viewport.scale);
+}
+
+/// Where an anchor is; nothing when its body is gone.
+std::optional<Vec2> placeOf(const Anchor& anchor, std::span<const Body> bodies) {
+  if (!anchor.body) return anchor.point;
+  const auto body = std::ranges::find(bodies, *anchor.body, &Body::id);
+  if (body == bodies.end()) return std::nullopt;
+  return middleOf(*body);
+}
+
+constexpr double kPieces = 40.0;       ///< of a trail, about; each of one colour
+constexpr double kLongestPiece = 0.05; ///< s: so long a flight is nearly straight
+
+/// Whether a trail needs this place: the first of every `piece` seconds, and where it turns by more than 2°
+/// in a frame. It depends on the place's neighbours only, so a trail that grows and gets old keeps its
+/// pieces.
+bool isCorner(const std::deque<OverlayHistory::Place>& places, std::size_t i, double piece) {
+  constexpr double kCosine = 0.99939;
+  if (i == 0 || i + 1 >= places.size()) return true;
+  if (std::floor(places[i].time / piece) != std::floor(places[i - 1].time / piece)) return true;
+  const Vec2 one = places[i].at - places[i - 1].at;
+  const Vec2 two = places[i + 1].at - places[i].at;
+  return one.dot(two) < kCosine * length(one) * length(two);
+}
+
+Vec2 toPane(const Viewport& viewport, const Vec2& p) {
+  return (p - viewport.offset) / viewport.scale;
+}
+
+} // namespace
+
+void OverlayPainter::paint(Picture& picture, OverlayLayer layer, const Now& now) const {
+  const Viewport& viewport = now.painter.viewport();
+  const auto each = [&](const auto& list, auto draw) {
+    for (const auto& overlay : list)
+      if (overlay.layer == layer) draw(overlay);
+  };
+  const auto eachBody = [&](const auto& list, auto draw) {
+    each(list, [&](const auto& overlay) {
+      for (const Body& body : now.bodies)
+        if (overlay.of.holds(body)) draw(picture, overlay, body, viewport);
+    });
+  };
+  each(overlays_.grids, [&](const GridOverlay& overlay) { grid(picture, overlay, now); });
+  each(overlays_.trails, [&](const TrailOverlay& overlay) { trail(picture, overlay, now); });
+  for (std::size_t i = 0; i < overlays_.ghosts.size(); ++i)
+    if (overlays_.ghosts[i].layer == layer) ghosts(picture, i, now);
+  eachBody(overlays_.outlines, drawOutline);
+  eachBody(overlays_.marks, drawMark);
+  each(overlays_.arrows, [&](const ArrowOverlay& overlay) { arrows(picture, overlay, now); });
+  each(overlays_.contactMarks, [&](const ContactMarkOverlay& overlay) { contacts(picture, overlay, now); });
+  each(overlays_.rulers, [&](const RulerOverlay& overlay) { ruler(picture, overlay, now); });
+}
+
+void OverlayPainter::grid(Picture& picture, const GridOverlay& grid, const Now& now) const {
+  const Viewport& viewport = now.painter.viewport();
+  const PixelRect& pane = viewport.clip;
+  const Vec2 origin = toOutput(viewport, overlays_.units.origin);
+  const double step = grid.step * viewport.scale;
+  if (!(step > 1.0)) return; // closer lines are a grey pane
+  const Vec2 low(pane.left, pane.top);
+  const Vec2 high(pane.right, pane.bottom);
+  const double width = std::max(std::round(grid.width * viewport.scale), 1.0);
+  const auto line = [&](Pen& pen, int axis, double at, double lineWidth) {
+    Vec2 from = low;
+    Vec2 to = high;
+    from[axis] = to[axis] = sharp(at, lineWidth);
+    pen.line(from, to);
+  };
+  Pen pen(picture, width, bytes(grid.color));
+  Pen axisPen(picture, 2.0 * width, bytes(grid.axisColor));
+  for (int axis = 0; axis < 2; ++axis) {
+    for (double k = std::ceil((low[axis] - origin[axis]) / step); origin[axis] + k * step <= high[axis];
+         k += 1.0) {
+      if (grid.axes && k == 0.0) continue;
+      line(pen, axis, origin[axis] + k * step, width);
+    }
+  }
+  for (int axis = 0; axis < 2; ++axis)
+    if (grid.axes) line(axisPen, axis, origin[axis], 2.0 * width);
+  if (grid.labels) gridLabels(picture, grid, now);
+}
+
+/// Numbers beside the axes, or beside the pane's nearest edge where an axis is not in sight. Of lines that
+/// stand closer than three em only every second, fifth or tenth … has one.
+void OverlayPainter::gridLabels(Picture& picture, const GridOverlay& grid, const Now& now) const {
+  const Viewport& viewport = now.painter.viewport();
+  const OverlayUnits& units = overlays_.units;
+  const Vec2 low = toPane(viewport, Vec2(viewport.clip.left, viewport.clip.top));
+  const Vec2 high = toPane(viewport, Vec2(viewport.clip.right, viewport.clip.bottom));
+  const double em = grid.labelSize;
+  const double every = roundStep(std::max(3.0 * em / grid.step, 1.0));
+  const double step = grid.step / units.pixels;
+  TextLook look;
+  look.size = em;
+  look.color = grid.axisColor;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double across = std::clamp(units.origin[1 - axis], low[1 - axis], high[1 - axis]);
+    // Below a horizontal axis and left of a vertical one, but inside the pane.
+    const bool outside = axis == 0 ? across + 2.0 * em > high[1] : across - 3.0 * em < low[0];
+    if (axis == 0) look.anchor = outside ? NinePosition::Bottom : NinePosition::Top;
+    if (axis == 1) look.anchor = outside ? NinePosition::Left : NinePosition::Right;
+    const double away = (axis == 0) == outside ? -0.4 * em : 0.4 * em;
+    const double sign = axis == 1 && units.yUp ? -1.0 : 1.0;
+    for (double k = std::ceil((low[axis] - units.origin[axis]) / grid.step / every) * every;
+         units.origin[axis] + k * grid.step <= high[axis]; k += every) {
+      const double at = units.origin[axis] + k * grid.step;
+      if (k == 0.0 || at < low[axis] + em || at > high[axis] - em) continue;
+      Vec2 place;
+      place[axis] = at;
+      place[1 - axis] = across + away;
+      now.texts.draw(picture, tickLabel(sign * k * step, every * step), look, place);
+    }
+  }
+}
+
+void OverlayPainter::trail(Picture& picture, const TrailOverlay& trail, const Now& now) const {
+  const Viewport& viewport = now.painter.viewport();
+  std::vector<Vec2> points;
+  std::vector<Rgba8> colors;
+  for (const auto& [id, track] : now.history.tracks()) {
+    if (!trail.of.holds(id, track.group)) continue;
+    const Rgba8 color = trail.color ? bytes(*trail.color, trail.opacity)
+                                    : faded(now.painter.colorOf(track.look), trail.opacity);
+    const double begin = now.time - trail.length;
+    const double piece = std::min(trail.length / kPieces, kLongestPiece);
+    points.clear();
+    colors.clear();
+    double last = 0.0; // the time of the last point
+    const auto add = [&](const OverlayHistory::Place& place) {
+      if (!points.empty()) {
+        const double age = now.time - 0.5 * (last + place.time);
+        colors.push_back(trail.fade ? faded(color, fadeStep(1.0 - age / trail.length)) : color);
+      }
+      points.push_back(toOutput(viewport, place.at));
+      last = place.time;
+    };
+    const auto& places = track.places;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (places[i].time >= begin) {
+        if (isCorner(places, i, piece)) add(places[i]);
+        continue;
+      }
+      const OverlayHistory::Place& next = i + 1 < places.size() ? places[i + 1] : track.head;
+      if (!(next.time > begin)) continue;
+      const double part = (begin - places[i].time) / (next.time - places[i].time);
+      add({begin, places[i].at + part * (next.at - places[i].at)});
+    }
+    if (track.head.time > begin) add(track.head);
+    Pen(picture, trail.width * viewport.scale, color).path(points, colors);
+  }
+}
+
+void OverlayPainter::ghosts(Picture& picture, std::size_t index, const Now& now) const {
+  const GhostOverlay& overlay = overlays_.ghosts[index];
+  for (const OverlayHistory::Ghost& ghost : now.history.ghosts(index)) {
+    const double left = overlay.fade ? 1.0 - (now.time - ghost.time) / overlay.length : 1.0;
+    now.painter.body(picture, ghost.body, ghost.body.look, overlay.opacity * std::clamp(left, 0.0, 1.0));
+  }
+}
+
+std::vector<Vec2> OverlayPainter::accelerations(std::span<const Body> bodies, double time) const {
+  ForceField field = field_;
+  field.findAnchors(bodies);
+  std::vector<Motion> everyone;
+  for (const Body& body : bodies) everyone.push_back({body.position, body.velocity});
+  std::vector<Vec2> result;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    result.push_back(field.acceleration(bodies, i, everyone[i], time, everyone));
+  return result;
+}
+
+void OverlayPainter::arrows(Picture& picture, const ArrowOverlay& arrow, const Now& now) const {
+  const Viewport& viewport = now.painter.viewport();
+  const Color color = arrow.color.value_or(arrowColor(arrow.quantity));
+  Pen pen(picture, arrow.width * viewport.scale, bytes(color, arrow.opacity));
+  std::vector<Vec2> accelerated;
+  if (arrow.quantity != ArrowQuantity::Velocity) accelerated = accelerations(now.bodies, now.time);
+  for (std::size_t i = 0; i < now.bodies.size(); ++i) {
+    const Body& body = now.bodies[i];
+    if (body.fixed || !arrow.of.holds(body)) continue;
+    Vec2 value = body.velocity;
+    if (arrow.quantity == ArrowQuantity::Acceleration) value = accelerated[i];
+    if (arrow.quantity == ArrowQuantity::Force) value = accelerated[i] * body.mass;
+    const Vec2 shown = value * (arrow.scale * viewport.scale);
+    if (!(length(shown) >= kLeastArrow)) continue;
+    const Vec2 from = toOutput(viewport, middleOf(body));
+    pen.arrow(from, from + shown, kHeadPerWidth * arrow.width * viewport.scale);
+  }
+}
+
+void OverlayPainter::contacts(Picture& picture, const ContactMarkOverlay& mark, const Now& now) const {
+  const Viewport& viewport = now.painter.viewport();
+  const double width = mark.width * viewport.scale;
+  for (const OverlayHistory::Contact& contact : now.history.contacts()) {
+    const double left = 1.0 - (now.time - contact.time) / mark.duration;
+    if (!(left > 0.0) || !(mark.of.holds(contact.first) || mark.of.holds(contact.second))) continue;
+    const double opacity = std::min(2.0 * left, 1.0);
+    const Vec2 at = toOutput(viewport, contact.at);
+    const Vec2 along = contact.normal * (0.5 * mark.length * viewport.scale);
+    const Vec2 across(-along.y(), along.x());
+    Pen pen(picture, width, bytes(mark.tangent, opacity));
+    pen.dashes(at - across, at + across, 3.0 * width, 2.0 * width);
+    pen.setColor(bytes(mark.normal, opacity));
+    pen.arrow(at - along, at + along, kHeadPerWidth * width);
+    pen.disc(at, 2.0 * width);
+  }
+}
+
+void OverlayPainter::ruler(Picture& picture, const RulerOverlay& ruler, const Now& now) const {
+  const Viewport& viewport = now.painter.viewport();
+  const auto from = placeOf(ruler.from, now.bodies);
+  const auto to = placeOf(ruler.to, now.bodies);
+  if (!from || !to || !(length(*to - *from) > 0.0)) return;
+  const double whole = length(*to - *from);
+  const Vec2 ahead = (*to - *from) / whole;
+  const Vec2 aside = Vec2(-ahead.y(), ahead.x()) * viewport.scale;
+  Pen pen(picture, ruler.width * viewport.scale, bytes(ruler.color));
+  pen.line(toOutput(viewport, *from), toOutput(viewport, *to));
+  // Ticks stand on the line and not across it, where a translucent one would show twice.
+  const auto tick = [&](double distance, double reach) {
+    const Vec2 at = toOutput(viewport, *from + ahead * distance);
+    const Vec2 foot = aside * (0.5 * ruler.width);
+    pen.line(at + foot, at + aside * reach);
+    pen.line(at - foot, at - aside * reach);
+  };
+  tick(0.0, kLongTick);
+  tick(whole, kLongTick);
+  for (double k = 1.0; k * ruler.step < whole - 1e-6 * ruler.step && k <= kMostTicks; k += 1.0)
+    tick(k * ruler.step, std::fmod(k, 5.0) == 0.0 ? kLongTick : kTick);
+  if (ruler.unit.empty()) return;
+  const double unit = overlays_.units.pixels;
+  const std::string text = fmt::format("{} {}", tickLabel(whole / unit, unit > 1.0 ? 0.01 : 1.0), ruler.unit);
+  // Beside the middle, on the side that is to the right or above.
+  Vec2 beside(-ahead.y(), ahead.x());
+  if (beside.x() < -1e-9 || (std::abs(beside.x()) <= 1e-9 && beside.y() > 0.0)) beside = -beside;
+  TextLook look;
+  look.size = ruler.labelSize;
+  look.color = ruler.color;
+  look.anchor = std::abs(beside.x()) > 0.5 ? NinePosition::Left : NinePosition::Bottom;
+  const double away = kLongTick + 0.3 * ruler.labelSize;
+  now.texts.draw(picture, text, look, *from + ahead * (0.5 * whole) + beside * away, 1.0, true);
+}
+
+} // namespace offstage

@@ -1,0 +1,231 @@
+#include "render/draw/plot_painter.h"
+
+#include "render/draw/pen.h"
+#include "render/draw/simplify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace offstage {
+namespace {
+
+constexpr double kTolerance = 0.1; ///< px that a curve may lie beside its points
+
+Rgba8 bytes(const Color& color) {
+  return {color.red, color.green, color.blue, color.alphaByte()};
+}
+
+/// px: the middle of a line of whole pixels' width, where it is sharp.
+double sharp(double at, double width) {
+  return std::round(at - 0.5 * width) + 0.5 * width;
+}
+
+struct Extent {
+  double least = std::numeric_limits<double>::infinity();
+  double greatest = -std::numeric_limits<double>::infinity();
+
+  void add(double value, bool log) {
+    if (!std::isfinite(value) || (log && !(value > 0.0))) return;
+    least = std::min(least, value);
+    greatest = std::max(greatest, value);
+  }
+};
+
+} // namespace
+
+void append(Picture& picture, const Picture& part) {
+  const auto patterns = static_cast<std::int32_t>(picture.patterns.size());
+  const auto masks = static_cast<std::int32_t>(picture.masks.size());
+  const auto clips = static_cast<std::int32_t>(picture.clips.size());
+  for (Primitive primitive : part.primitives) {
+    if (primitive.pattern >= 0) primitive.pattern += patterns;
+    if (primitive.mask >= 0) primitive.mask += masks;
+    if (primitive.clip >= 0) primitive.clip += clips;
+    picture.primitives.push_back(primitive);
+  }
+  picture.patterns.insert(picture.patterns.end(), part.patterns.begin(), part.patterns.end());
+  picture.masks.insert(picture.masks.end(), part.masks.begin(), part.masks.end());
+  picture.clips.insert(picture.clips.end(), part.clips.begin(), part.clips.end());
+}
+
+PlotPainter::PlotPainter(const Plot& plot, std::size_t number, const PlotData& data, const Viewport& viewport,
+                         const TextPainter& texts)
+    : plot_(plot), number_(number), data_(data), viewport_(viewport), texts_(texts) {
+  makeAxes();
+  layOut();
+  drawFrame(still_);
+}
+
+void PlotPainter::makeAxes() {
+  Extent x;
+  Extent y;
+  for (std::size_t curve = 0; curve < plot_.curves.size(); ++curve) {
+    for (const PlotData::Point& point : data_.points(number_, curve)) {
+      x.add(point.x, plot_.x.log);
+      y.add(point.y, plot_.y.log);
+    }
+  }
+  // About one tick for every six letters' width, and every two lines' height.
+  const int columns = std::max(static_cast<int>(plot_.area[2] / (5.0 * plot_.textSize)), 2);
+  const int rows = std::max(static_cast<int>(plot_.area[3] / (2.6 * plot_.textSize)), 2);
+  const auto make = [](const PlotAxis& axis, const Extent& extent, int most) {
+    if (axis.range) return Axis((*axis.range)[0], (*axis.range)[1], axis.log);
+    return Axis::around(extent.least, extent.greatest, axis.log, most);
+  };
+  x_ = make(plot_.x, x, columns);
+  y_ = make(plot_.y, y, rows);
+  xTicks_ = x_.ticks(columns);
+  yTicks_ = y_.ticks(rows);
+}
+
+TextLook PlotPainter::textLook(NinePosition anchor, double size) const {
+  TextLook look;
+  look.size = size;
+  look.color = plot_.ink;
+  look.anchor = anchor;
+  return look;
+}
+
+void PlotPainter::text(Picture& picture, const std::string& text, const Vec2& outputPoint,
+                       NinePosition anchor, double size, bool upwards) const {
+  if (text.empty()) return;
+  TextLook look = textLook(anchor, size);
+  look.upwards = upwards;
+  texts_.draw(picture, text, look, (outputPoint - viewport_.offset) / viewport_.scale);
+}
+
+/// Leaves room for what stands around the axes.
+void PlotPainter::layOut() {
+  const double em = plot_.textSize;
+  double widest = 0.0;
+  for (const Axis::Tick& tick : yTicks_)
+    widest = std::max(widest, texts_.measure(tick.label, textLook(NinePosition::Right, em)).x());
+  double lastHalf = 0.0;
+  if (!xTicks_.empty())
+    lastHalf = 0.5 * texts_.measure(xTicks_.back().label, textLook(NinePosition::Top, em)).x();
+  const double left = 0.6 * em + widest + 0.5 * em + (plot_.y.label.empty() ? 0.0 : 1.5 * em);
+  const double right = std::max(0.9 * em, lastHalf + 0.3 * em);
+  const double top = plot_.title.empty() ? 0.9 * em : 2.4 * em;
+  const double bottom = 2.1 * em + (plot_.x.label.empty() ? 0.0 : 1.4 * em);
+  const Vec2 low(plot_.area[0] + left, plot_.area[1] + top);
+  const Vec2 high(plot_.area[0] + plot_.area[2] - right, plot_.area[1] + plot_.area[3] - bottom);
+  const auto output = [&](const Vec2& p) {
+    const Vec2 at = p * viewport_.scale + viewport_.offset;
+    return Vec2(std::round(at.x()), std::round(at.y()));
+  };
+  inner_ = {output(low), output(high.cwiseMax(low + Vec2(1.0, 1.0)))};
+}
+
+Vec2 PlotPainter::place(const PlotData::Point& point) const {
+  return {inner_.low.x() + x_.place(point.x) * (inner_.high.x() - inner_.low.x()),
+          inner_.high.y() - y_.place(point.y) * (inner_.high.y() - inner_.low.y())};
+}
+
+void PlotPainter::drawFrame(Picture& picture) const {
+  const double scale = viewport_.scale;
+  const double em = plot_.textSize;
+  const double line = std::max(std::round(0.07 * em * scale), 1.0);
+  const Vec2 corner = Vec2(plot_.area[0], plot_.area[1]) * scale + viewport_.offset;
+  const Vec2 size = Vec2(plot_.area[2], plot_.area[3]) * scale;
+  Pen(picture, line, bytes(plot_.background)).rectangle(corner, corner + size);
+
+  Pen gridPen(picture, line, bytes(plot_.gridColor));
+  Pen pen(picture, line, bytes(plot_.ink));
+  const double tick = 0.3 * em * scale;
+  for (const Axis::Tick& mark : xTicks_) {
+    const double at = sharp(inner_.low.x() + x_.place(mark.value) * (inner_.high.x() - inner_.low.x()), line);
+    if (plot_.grid) gridPen.line({at, inner_.low.y()}, {at, inner_.high.y()});
+    pen.line({at, inner_.high.y()}, {at, inner_.high.y() + tick});
+    text(picture, mark.label, {at, inner_.high.y() + 0.45 * em * scale}, NinePosition::Top, em);
+  }
+  for (const Axis::Tick& mark : yTicks_) {
+    const double at =
+        sharp(inner_.high.y() - y_.place(mark.value) * (inner_.high.y() - inner_.low.y()), line);
+    if (plot_.grid) gridPen.line({inner_.low.x(), at}, {inner_.high.x(), at});
+    pen.line({inner_.low.x() - tick, at}, {inner_.low.x(), at});
+    text(picture, mark.label, {inner_.low.x() - 0.5 * em * scale, at}, NinePosition::Right, em);
+  }
+  pen.line({inner_.low.x(), sharp(inner_.high.y(), line)}, {inner_.high.x(), sharp(inner_.high.y(), line)});
+  pen.line({sharp(inner_.low.x(), line), inner_.low.y()}, {sharp(inner_.low.x(), line), inner_.high.y()});
+  const Vec2 middle = 0.5 * (inner_.low + inner_.high);
+  text(picture, plot_.x.label, {middle.x(), corner.y() + size.y() - 0.35 * em * scale}, NinePosition::Bottom,
+       em);
+  text(picture, plot_.y.label, {corner.x() + 0.35 * em * scale, middle.y()}, NinePosition::Left, em, true);
+  text(picture, plot_.title, {middle.x(), corner.y() + 0.5 * em * scale}, NinePosition::Top, 1.15 * em);
+}
+
+/// In the upper right corner of the axes, over the curves.
+void PlotPainter::drawLegend(Picture& picture) const {
+  const double scale = viewport_.scale;
+  const double em = plot_.textSize;
+  double widest = 0.0;
+  for (const PlotCurve& curve : plot_.curves)
+    widest = std::max(widest, texts_.measure(curve.name, textLook(NinePosition::Left, em)).x());
+  const auto lines = static_cast<double>(plot_.curves.size());
+  const Vec2 size = Vec2(widest + 3.1 * em, (1.35 * lines + 0.5) * em) * scale;
+  const Vec2 corner(inner_.high.x() - size.x() - 0.4 * em * scale, inner_.low.y() + 0.4 * em * scale);
+  Rgba8 ground = bytes(plot_.background);
+  ground.a = static_cast<std::uint8_t>(std::min<int>(ground.a, 215));
+  Pen(picture, 1.0, ground).rectangle(corner, corner + size);
+  double y = corner.y() + (0.25 + 0.675) * em * scale;
+  for (const PlotCurve& curve : plot_.curves) {
+    const double x = corner.x() + 0.5 * em * scale;
+    Pen(picture, std::max(plot_.width, 0.15 * em) * scale, bytes(curve.color))
+        .line({x, std::round(y)}, {x + 1.7 * em * scale, std::round(y)});
+    text(picture, curve.name, {x + 2.2 * em * scale, y}, NinePosition::Left, em);
+    y += 1.35 * em * scale;
+  }
+}
+
+void PlotPainter::drawCurve(Picture& picture, std::size_t curve, std::size_t frames,
+                            std::int32_t clip) const {
+  const std::vector<PlotData::Point>& points = data_.points(number_, curve);
+  Pen pen(picture, plot_.width * viewport_.scale, bytes(plot_.curves[curve].color), clip);
+  PathSimplifier simplifier(kTolerance);
+  const double reach = 4.0 * length(inner_.high - inner_.low); // far enough out to be clipped
+  for (std::size_t i = 0; i < std::min(frames, points.size()); ++i) {
+    const Vec2 at = place(points[i]);
+    if (std::isfinite(at.x()) && std::isfinite(at.y())) {
+      simplifier.add(
+          at.cwiseMax(inner_.low - Vec2::Constant(reach)).cwiseMin(inner_.high + Vec2::Constant(reach)));
+      continue;
+    }
+    pen.path(simplifier.path()); // there is a gap
+    simplifier.clear();
+  }
+  pen.path(simplifier.path());
+}
+
+void PlotPainter::draw(Picture& picture, std::int64_t frame) const {
+  append(picture, still_);
+  const double scale = viewport_.scale;
+  const auto present = static_cast<std::size_t>(frame);
+  const auto clip = static_cast<std::int32_t>(picture.clips.size());
+  // A line on an axis is seen in its full width.
+  const int edge = static_cast<int>(std::ceil(plot_.width * scale));
+  picture.clips.push_back({static_cast<int>(inner_.low.x()) - edge, static_cast<int>(inner_.low.y()) - edge,
+                           static_cast<int>(inner_.high.x()) + edge,
+                           static_cast<int>(inner_.high.y()) + edge});
+  for (std::size_t curve = 0; curve < plot_.curves.size(); ++curve) {
+    const std::size_t all = data_.points(number_, curve).size();
+    drawCurve(picture, curve, plot_.whole ? all : present + 1, clip);
+  }
+  if (plot_.cursor) {
+    const double line = std::max(std::round(0.08 * plot_.textSize * scale), 1.0);
+    for (std::size_t curve = 0; curve < plot_.curves.size(); ++curve) {
+      const auto& points = data_.points(number_, curve);
+      if (present >= points.size()) continue;
+      const Vec2 at = place(points[present]);
+      if (plot_.overTime && curve == 0 && std::isfinite(at.x())) {
+        Pen(picture, line, faded(bytes(plot_.ink), 0.5), clip)
+            .line({sharp(at.x(), line), inner_.low.y()}, {sharp(at.x(), line), inner_.high.y()});
+      }
+      if (std::isfinite(at.x()) && std::isfinite(at.y()))
+        Pen(picture, line, bytes(plot_.curves[curve].color), clip).disc(at, 1.8 * plot_.width * scale);
+    }
+  }
+  if (plot_.legend) drawLegend(picture);
+}
+
+} // namespace offstage

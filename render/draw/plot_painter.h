@@ -1,0 +1,54 @@
+#pragma once
+
+#include "render/draw/axis.h"
+#include "render/draw/plot_data.h"
+#include "render/draw/text_painter.h"
+#include "src/scene/plot.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace offstage {
+
+/// One plot, ready to be drawn in any frame of its run.
+class PlotPainter {
+public:
+  /// `number`: of the plot in the scene. `data` must outlive it. Throws as TextPainter::require().
+  PlotPainter(const Plot& plot, std::size_t number, const PlotData& data, const Viewport& viewport,
+              const TextPainter& texts);
+
+  /// The plot with the frame `frame` as its present.
+  void draw(Picture& picture, std::int64_t frame) const;
+
+private:
+  struct Inner {
+    Vec2 low, high; ///< output px: the rectangle between the axes
+  };
+
+  void makeAxes();
+  void layOut();
+  void drawFrame(Picture& picture) const;
+  void drawLegend(Picture& picture) const;
+  void drawCurve(Picture& picture, std::size_t curve, std::size_t frames, std::int32_t clip) const;
+  [[nodiscard]] Vec2 place(const PlotData::Point& point) const;
+  [[nodiscard]] TextLook textLook(NinePosition anchor, double size) const;
+  void text(Picture& picture, const std::string& text, const Vec2& outputPoint, NinePosition anchor,
+            double size, bool upwards = false) const;
+
+  Plot plot_;
+  std::size_t number_;
+  const PlotData& data_;
+  Viewport viewport_;
+  TextPainter texts_;
+  Axis x_{0.0, 1.0, false};
+  Axis y_{0.0, 1.0, false};
+  std::vector<Axis::Tick> xTicks_, yTicks_;
+  Inner inner_{};
+  Picture still_; ///< what is the same in all frames
+};
+
+/// Adds all that `part` paints to `picture`.
+void append(Picture& picture, const Picture& part);
+
+} // namespace offstage

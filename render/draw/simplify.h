@@ -1,0 +1,34 @@
+#pragma once
+
+#include "src/sim/vec.h"
+
+#include <vector>
+
+namespace offstage {
+
+/// Leaves points out of a path where it stays within `tolerance` of the rest, so that a smooth curve of
+/// thousands of points takes a few dozen. Works from the first point on and looks back only as far as the
+/// last point that it kept, so a curve that grows keeps its beginning. (Reumann and Witkam, Optimizing curve
+/// segmentation in computer graphics, 1974, with a cone in place of the strip.)
+class PathSimplifier {
+public:
+  explicit PathSimplifier(double tolerance) : tolerance_(tolerance) {}
+
+  void add(const Vec2& point);
+  /// The points so far, the last one included.
+  [[nodiscard]] std::vector<Vec2> path() const;
+  void clear();
+
+private:
+  void narrow(const Vec2& point);
+
+  double tolerance_;
+  std::vector<Vec2> kept_;
+  Vec2 last_ = Vec2::Zero();
+  bool pending_ = false; ///< last_ is behind kept_.back() and not kept
+  // Directions from kept_.back() that pass all points since within the tolerance: between low_ and high_.
+  Vec2 low_ = Vec2::Zero();
+  Vec2 high_ = Vec2::Zero();
+};
+
+} // namespace offstage

@@ -1,0 +1,51 @@
+#include "render/job/poster.h"
+
+#include "render/job/frame_maker.h"
+#include "render/job/still.h"
+#include "render/output/file_error.h"
+#include "render/output/jpeg.h"
+#include "render/output/png.h"
+#include "src/sim/error.h"
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace offstage {
+namespace {
+
+constexpr double kPerInch = 72.0;
+constexpr double kInch = 0.0254; // m
+
+/// Whether a poster of this name is a PNG; else it is a JPEG.
+bool isPng(const std::filesystem::path& file) {
+  const std::filesystem::path ending = file.extension();
+  if (ending == ".png") return true;
+  if (ending == ".jpg" || ending == ".jpeg") return false;
+  throw Error(ExitCode::BadInput, fmt::format("{}: a poster ends in .png, .jpg or .jpeg", quoted(file)));
+}
+
+} // namespace
+
+int printResolution(double scale) {
+  return static_cast<int>(std::lround(kPerInch * scale / kInch));
+}
+
+Poster::Poster(std::filesystem::path file) : path_(std::move(file)), isPng_(isPng(path_)), file_(path_) {}
+
+void Poster::write(Source& source, std::optional<double> at, double scale) {
+  const bool alpha = pictureOf(source).background.a != 255;
+  if (alpha && !isPng_)
+    throw Error(
+        ExitCode::BadInput,
+        fmt::format("{}: a JPEG has no transparency; use .png, or an opaque background", quoted(path_)));
+  const Frame frame = drawFrame(source, at.value_or(videoSeconds(source) * 0.5));
+  const std::vector<std::uint8_t> bytes =
+      isPng_ ? encodePng(frame, alpha, printResolution(scale)) : encodeJpeg(frame);
+  file_.write(bytes.data(), bytes.size());
+  file_.commit();
+}
+
+} // namespace offstage

@@ -1,0 +1,125 @@
+#include "src/scene/trace_summary.h"
+
+#include "src/sim/contact.h"
+#include "src/sim/probe.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace offstage {
+
+TraceSummary::TraceSummary(const WorldSetup& setup) : rules_(setup.contacts), ruled_(setup.groups.size(), 0) {
+  for (const ContactRule& rule : rules_) ruled_.at(rule.groupA) = ruled_.at(rule.groupB) = 1;
+}
+
+void TraceSummary::add(const World& world) {
+  const Snapshot snapshot = snapshotOf(world);
+  const auto total = [&snapshot](Quantity quantity) {
+    Probe probe;
+    probe.quantity = quantity;
+    return valueOf(probe, snapshot);
+  };
+  const std::size_t before = end_.bodies;
+  end_ = {world.frame(),
+          world.time(),
+          world.bodies().size(),
+          total(Quantity::Px),
+          total(Quantity::Py),
+          total(Quantity::Kinetic),
+          total(Quantity::Potential)};
+  if (!start_) start_ = end_;
+  const double drift = std::abs(end_.energy() - start_->energy());
+  if (drift > drift_.energy || std::isnan(drift)) drift_ = {drift, end_.frame};
+  const std::int64_t made = made_;
+  countEvents(world);
+  if (end_.frame > start_->frame)
+    gone_ += static_cast<std::int64_t>(before) + (made_ - made) - static_cast<std::int64_t>(end_.bodies);
+  findOverlaps(world);
+}
+
+void TraceSummary::countEvents(const World& world) {
+  for (const Event& event : world.events()) {
+    switch (event.kind) {
+    case EventKind::Spawn:
+    case EventKind::Fire:
+      ++made_;
+      break;
+    case EventKind::Left:
+    case EventKind::Right:
+    case EventKind::Top:
+    case EventKind::Bottom:
+      ++walls_;
+      break;
+    case EventKind::Collide:
+      ++collisions_;
+      break;
+    case EventKind::Hit:
+      ++hits_;
+      break;
+    case EventKind::Touch:
+      ++touches_;
+      break;
+    case EventKind::NoFire:
+    case EventKind::Leave:
+      break;
+    }
+  }
+}
+
+bool TraceSummary::collide(const Body& first, const Body& second) const {
+  return std::any_of(rules_.begin(), rules_.end(), [&](const ContactRule& rule) {
+    return (rule.groupA == first.group && rule.groupB == second.group) ||
+           (rule.groupA == second.group && rule.groupB == first.group);
+  });
+}
+
+void TraceSummary::findOverlaps(const World& world) {
+  if (rules_.empty()) return;
+  const std::span<const Body> bodies = world.bodies();
+  members_.clear();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (ruled_[bodies[i].group] != 0) members_.push_back(static_cast<std::uint32_t>(i));
+  }
+  broadphase_.begin(bodies, members_);
+  for (const std::uint32_t i : members_) {
+    broadphase_.query(bodies[i], 0.0, near_);
+    for (const std::uint32_t j : near_) {
+      const Body& first = bodies[i];
+      const Body& second = bodies[j];
+      if (j <= i || !collide(first, second)) continue;
+      const std::optional<Contact> contact = findContact(first, second);
+      if (!contact) continue;
+      const double depth = contact->touch - contact->distance;
+      if (overlap_ && depth <= overlap_->depth) continue;
+      const bool circles = first.shape == Shape::Circle && second.shape == Shape::Circle;
+      overlap_ = {depth, circles ? std::min(first.radius, second.radius) : 0.0, world.frame(), first.id,
+                  second.id};
+    }
+  }
+}
+
+std::string TraceSummary::text() const {
+  const Totals start = start_.value_or(Totals{});
+  std::string text = fmt::format("frames     {} … {}, {} s\n", start.frame, end_.frame, end_.time);
+  text += fmt::format("bodies     {} → {}; {} came, {} went\n", start.bodies, end_.bodies, made_, gone_);
+  text += fmt::format("momentum   ({}, {}) → ({}, {}) mass·px/s\n", start.px, start.py, end_.px, end_.py);
+  text += fmt::format("kinetic    {} → {} mass·px²/s²\n", start.kinetic, end_.kinetic);
+  text += fmt::format("potential  {} → {} mass·px²/s²\n", start.potential, end_.potential);
+  text += fmt::format("energy     {} → {} mass·px²/s²\n", start.energy(), end_.energy());
+  text += fmt::format("drift      at most {} mass·px²/s²", drift_.energy);
+  if (start.energy() != 0.0)
+    text += fmt::format(", {:.3g} of the energy at the start", drift_.energy / std::abs(start.energy()));
+  text += fmt::format(", in frame {}\n", drift_.frame);
+  text += fmt::format("contacts   {} collisions, {} hits, {} touches, {} at walls\n", collisions_, hits_,
+                      touches_, walls_);
+  if (!overlap_) return text + "overlap    none\n";
+  text += fmt::format("overlap    at most {} px", overlap_->depth);
+  if (overlap_->radius > 0.0)
+    text += fmt::format(", {:.3g} of the smaller radius", overlap_->depth / overlap_->radius);
+  return text +
+         fmt::format(", bodies {} and {} in frame {}\n", overlap_->first, overlap_->second, overlap_->frame);
+}
+
+} // namespace offstage

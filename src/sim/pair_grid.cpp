@@ -1,0 +1,72 @@
+#include "src/sim/pair_grid.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace offstage {
+
+void PairGrid::layOutLevels(std::span<const Body> bodies, std::span<const std::uint8_t> paired,
+                            double margin) {
+  sizes_.clear();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (paired[i] != 0) sizes_.count(extentOf(bodies[i]));
+  }
+  sizes_.layOut();
+  const auto unbounded = static_cast<std::uint32_t>(sizes_.members().size());
+  level_.resize(bodies.size());
+  levels_.assign(unbounded, Level{});
+  // The largest extent of each level, kept in cellsPerPixel until all are known.
+  for (Level& level : levels_) level.cellsPerPixel = 0.0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const double extent = extentOf(bodies[i]);
+    const std::uint32_t level = paired[i] != 0 ? sizes_.levelOf(extent) : 0;
+    level_[i] = paired[i] == 0 ? unbounded + 1 : std::min(level, unbounded);
+    if (level_[i] < unbounded) levels_[level].cellsPerPixel = std::max(levels_[level].cellsPerPixel, extent);
+  }
+  std::uint32_t lists = 0;
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    Level& level = levels_[i];
+    // A little wider than needed, for the roundings of whoever asks how far two bodies are apart.
+    const double side = level.cellsPerPixel * ((1.0 + 0.5 * margin) * 1.000001);
+    level.cellsPerPixel = side > 0.0 ? 1.0 / side : 1.0;
+    level.firstList = lists;
+    level.mask = std::max(32U, std::bit_ceil(sizes_.members()[i])) - 1;
+    lists += level.mask + 1;
+  }
+  starts_.resize(lists + 3);
+}
+
+void PairGrid::begin(std::span<const Body> bodies, std::span<const std::uint8_t> paired, double margin,
+                     bool sizesChanged) {
+  if (sizesChanged) layOutLevels(bodies, paired, margin);
+  const std::size_t unbounded = starts_.size() - 3; // behind all lists: the unbounded, then those alone
+  std::fill(starts_.begin(), starts_.end(), 0U);
+  list_.resize(bodies.size());
+  order_.resize(bodies.size());
+  places_.resize(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Place place = placeOf(bodies[i]);
+    std::size_t list = unbounded + 1;
+    if (std::isfinite(place.x) && std::isfinite(place.y) && level_[i] <= levels_.size()) {
+      list = unbounded;
+      if (level_[i] < levels_.size()) {
+        const Level& level = levels_[level_[i]];
+        list = level.firstList + listAt(level, place);
+      }
+    }
+    list_[i] = static_cast<std::uint32_t>(list);
+    ++starts_[list + 1];
+  }
+  for (std::size_t list = 1; list < starts_.size(); ++list) starts_[list] += starts_[list - 1];
+  firstUnbounded_ = starts_[unbounded];
+  firstAlone_ = starts_[unbounded + 1];
+}
+
+void PairGrid::end() {
+  // insert() has moved each start to its list's end, which is the next one's start.
+  std::copy_backward(starts_.begin(), starts_.end() - 1, starts_.end());
+  starts_[0] = 0;
+}
+
+} // namespace offstage

@@ -1,0 +1,245 @@
+#include "render/draw/overlay_history.h"
+#include "render/job/render_options.h"
+#include "render/job/scene_source.h"
+#include "render/stage/game_object.h"
+#include "render/stage/stage_source.h"
+#include "tests/support/process.h"
+#include "tests/support/scene_text.h"
+#include "tests/support/temp_dir.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace offstage::test {
+namespace {
+
+const std::string kWorld = R"(
+duration = 3.0
+seed = 4
+[world]
+gravity = [0, 400]
+[walls]
+all = 0.9
+[[force]]
+type = "spring"
+group = "hanging"
+to = [320, 100]
+stiffness = 9
+[[collide]]
+between = ["balls", "balls"]
+[[body]]
+name = "ball"
+group = "balls"
+center = [100, 100]
+radius = 30
+velocity = [250, 0]
+[[body]]
+group = "balls"
+center = [400, 300]
+radius = 30
+velocity = [-250, -200]
+[[body]]
+group = "hanging"
+center = [200, 250]
+radius = 9
+mass = 2
+[[spawn]]
+every = 0.5
+x = { int = 640 }
+y = { int = 100 }
+radius = { int = 20 }
+vx = { spread = 100 }
+group = "balls"
+)";
+
+const std::string kEveryOverlay = R"(
+[grid]
+[[trail]]
+[[trail]]
+of = "ball"
+length = 0.4
+fade = false
+layer = "front"
+[[ghost]]
+every = 0.2
+[[outline]]
+[[mark]]
+[[arrow]]
+[[arrow]]
+quantity = "acceleration"
+[[arrow]]
+quantity = "force"
+[[contact_mark]]
+[[ruler]]
+from = [0, 0]
+to = "ball"
+)";
+
+SceneSource sourceOf(const std::string& text) {
+  const Scene scene = sceneOf(text);
+  return {scene, Viewport::scaled(scene.size[0], scene.size[1], scene.scale)};
+}
+
+TEST(Overlay, LeavesEveryStateOfTheSimulationAsItIs) {
+  const Scene plainScene = sceneOf(kWorld);
+  const Scene fullScene = sceneOf(kWorld + kEveryOverlay);
+  const Viewport viewport = Viewport::scaled(640, 480, 1.0);
+  SceneSource plain(plainScene, viewport);
+  SceneSource full(fullScene, viewport);
+  Picture picture;
+  for (std::int64_t frame = 0; frame < plain.clock().steps(); ++frame) {
+    full.draw(picture);
+    ASSERT_EQ(full.stateHash(), plain.stateHash()) << "frame " << frame;
+    plain.step();
+    full.step();
+  }
+  EXPECT_GT(picture.primitives.size(), 200U);
+}
+
+/// Chunks, workers and a late start draw the same past.
+TEST(Overlay, PixelsDoNotDependOnWhereARenderBegins) {
+  const TempDir dir;
+  writeFile(dir / "scene.toml", kWorld + kEveryOverlay);
+  const auto hashes = [&](std::vector<std::string> options) {
+    std::vector<std::string> arguments{"render", dir / "scene.toml", "--hash", dir / "hash.txt"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProcessResult result = offstage(arguments);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return readFile(dir / "hash.txt");
+  };
+  const std::string whole = hashes({});
+  const std::string late = hashes({"--from", "2.5"});
+  ASSERT_FALSE(late.empty());
+  EXPECT_TRUE(whole.ends_with(late)) << late.substr(0, 120) << "\nnot in\n"
+                                     << whole.substr(whole.size() - 600);
+  EXPECT_EQ(hashes({"-o", dir / "a%04d.png", "--jobs", "2"}), whole);
+  EXPECT_EQ(hashes({"-o", dir / "b%04d.png", "--jobs", "0"}), whole);
+}
+
+TEST(Overlay, HistoryKeepsPlacesGhostsAndContacts) {
+  Overlays overlays;
+  overlays.trails.push_back({.length = 1.0});
+  overlays.ghosts.push_back({.every = 0.25, .length = 0.6});
+  overlays.contactMarks.push_back({.duration = 0.5});
+  OverlayHistory history(overlays);
+  std::vector<Body> bodies(2);
+  bodies[1].id = 1;
+  bodies[0].radius = bodies[1].radius = 10.0;
+  for (int frame = 0; frame <= 60; ++frame) {
+    const double time = frame / 20.0; // 3 s
+    bodies[0].position = Vec2(100.0 * time, 50.0);
+    bodies[1].position = Vec2(0.1 * time, 70.0); // slower than a place a half px
+    std::vector<Event> events;
+    if (frame == 50) events.push_back({frame, EventKind::Collide, 0, 1, time, 0.0, 0.0});
+    history.note(time, bodies, events);
+  }
+  const OverlayHistory::Track& track = history.tracks().at(0);
+  EXPECT_EQ(track.head.at, Vec2(300.0, 50.0));
+  EXPECT_EQ(track.head.time, 3.0);
+  ASSERT_EQ(track.places.size(), 22U); // a second at 20 frames a second, both ends, and the one before
+  EXPECT_DOUBLE_EQ(track.places.front().time, 1.95);
+  EXPECT_EQ(history.tracks().at(1).places.size(), 1U);
+  ASSERT_EQ(history.ghosts(0).size(), 6U); // 2.5, 2.75 and 3 s, two bodies
+  EXPECT_EQ(history.ghosts(0).front().time, 2.5);
+  ASSERT_EQ(history.contacts().size(), 1U);
+  const OverlayHistory::Contact& contact = history.contacts().front();
+  EXPECT_NEAR(contact.normal.norm(), 1.0, 1e-12);
+  EXPECT_NEAR((contact.at - Vec2(250.0, 50.0)).norm(), 10.0, 1e-9);
+}
+
+TEST(Overlay, ATrailOfABodyThatIsGoneStaysUntilItIsOld) {
+  Overlays overlays;
+  overlays.trails.push_back({.length = 0.5});
+  OverlayHistory history(overlays);
+  std::vector<Body> bodies(1);
+  history.note(0.0, bodies, {});
+  bodies[0].position = Vec2(30.0, 0.0);
+  history.note(0.1, bodies, {});
+  history.note(0.5, {}, {});
+  EXPECT_EQ(history.tracks().size(), 1U);
+  history.note(0.7, {}, {});
+  EXPECT_TRUE(history.tracks().empty());
+}
+
+const Primitive* firstOf(const Picture& picture, Primitive::Kind kind) {
+  const auto found = std::ranges::find(picture.primitives, kind, &Primitive::kind);
+  return found == picture.primitives.end() ? nullptr : &*found;
+}
+
+TEST(Overlay, ArrowsAreAsLongAsTheQuantityTimesTheScale) {
+  const std::string body = "[world]\ngravity = [0, 30]\n[[body]]\ncenter = [50, 60]\nradius = 5\nmass = 4\n"
+                           "velocity = [20, -10]\nacceleration = [5, 0]\n";
+  const auto tip = [&](const std::string& quantity) {
+    SceneSource source = sourceOf(body + "[[arrow]]\nscale = 2\nquantity = \"" + quantity + "\"\n");
+    Picture picture;
+    source.draw(picture);
+    const Primitive* arrow = firstOf(picture, Primitive::Kind::Arrow);
+    return arrow == nullptr ? Vec2(NAN, NAN) : arrow->high;
+  };
+  EXPECT_EQ(tip("velocity"), Vec2(90.0, 40.0));
+  EXPECT_EQ(tip("acceleration"), Vec2(60.0, 120.0));
+  EXPECT_EQ(tip("force"), Vec2(90.0, 300.0));
+}
+
+TEST(Overlay, LayersGoBelowAndAboveTheBodies) {
+  const std::string body = "[[body]]\ncenter = [50, 60]\nradius = 5\nvelocity = [200, 0]\nfill = \"red\"\n";
+  for (const char* layer : {"behind", "front"}) {
+    SceneSource source = sourceOf(body + "[[arrow]]\nlayer = \"" + layer + "\"\n");
+    Picture picture;
+    source.draw(picture);
+    ASSERT_EQ(picture.primitives.size(), 2U) << layer;
+    const bool behind = picture.primitives[0].kind == Primitive::Kind::Arrow;
+    EXPECT_EQ(behind, std::string(layer) == "behind");
+  }
+}
+
+/// Exercises in C++ have them, too.
+TEST(Overlay, StagesHaveTheSameOverlays) {
+  struct Flight : Exercise {
+    GameObject ball{Vec2(100, 100), 20.0, Vec2(120, 0), Vec2(0, 90)};
+    void start(Stage& stage) override {
+      stage.addTrail(ball, {.length = 1.0});
+      stage.addGhosts(ball, {.every = 0.5});
+      stage.addArrow(ball);
+      stage.addArrow(ball, {.quantity = ArrowQuantity::Acceleration});
+      stage.addMark(ball);
+      stage.addOutline(ball);
+      stage.addGrid({.step = 100.0, .color = {0, 0, 0, 0.2}});
+    }
+    void frame(Stage& /*stage*/, double dt) override { ball.update(dt); }
+  };
+  StageSource source(std::make_unique<Flight>(), {});
+  Picture picture;
+  for (int i = 0; i < 61; ++i) source.step();
+  source.draw(picture);
+  const auto count = [&](Primitive::Kind kind) {
+    return std::ranges::count(picture.primitives, kind, &Primitive::kind);
+  };
+  EXPECT_EQ(count(Primitive::Kind::Arrow), 2);
+  EXPECT_EQ(count(Primitive::Kind::Disc), 4); // three ghosts and the ball
+  EXPECT_GT(count(Primitive::Kind::Strip), 40);
+  EXPECT_EQ(count(Primitive::Kind::Ring), 1);
+}
+
+TEST(Overlay, TellsWhatIsWrong) {
+  const auto errors =
+      errorsOf("[[trail]]\nof = \"nobody\"\nlength = -1\n[[ghost]]\nfade = true\n"
+               "[[ruler]]\nfrom = [0, 0]\nto = [100, 0]\nstep = 0.0001\n[grid]\nstep = nan\n");
+  EXPECT_THAT(
+      errors,
+      ::testing::ElementsAre(
+          ::testing::HasSubstr("scene.toml:2:6: error: 'of' in [[trail]] names \"nobody\", which is "
+                               "neither a body nor a group"),
+          ::testing::HasSubstr("scene.toml:3:10: error: 'length' in [[trail]] must be greater than 0"),
+          ::testing::HasSubstr("scene.toml:5:8: error: 'fade' in [[ghost]] needs a 'length'"),
+          ::testing::HasSubstr("scene.toml:9:8: error: 'step' in [[ruler]] gives more than 2000 lines"),
+          ::testing::HasSubstr("scene.toml:11:8: error: 'step' in [grid] must be")));
+}
+
+} // namespace
+} // namespace offstage::test

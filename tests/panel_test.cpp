@@ -1,0 +1,133 @@
+#include "render/job/scene_source.h"
+#include "render/raster/canvas.h"
+#include "src/scene/panel.h"
+#include "tests/support/canvas_pictures.h"
+#include "tests/support/process.h"
+#include "tests/support/scene_text.h"
+#include "tests/support/temp_dir.h"
+
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace offstage::test {
+namespace {
+
+const std::string kBall =
+    "duration = 1.0\n[frame]\nsize = [200, 100]\n[world]\ngravity = [0, 300]\n[[body]]\n"
+    "center = [50, 20]\nradius = 10\nvelocity = [40, 0]\nfill = \"#0000ff\"\n";
+
+TEST(Panels, AreTheSceneWithChangesMergedKeyByKey) {
+  const Scene scene =
+      sceneOf(kBall + "[[panel]]\ntitle = \"a\"\nworld.integrator = \"rk4\"\n[[panel]]\nseed = 7\n"
+                      "[[panel.body]]\ncenter = [1, 2]\nradius = 3\n");
+  ASSERT_EQ(scene.panels.panels.size(), 2U);
+  const Scene& first = *scene.panels.panels[0].scene;
+  const Scene& second = *scene.panels.panels[1].scene;
+  EXPECT_EQ(first.world.bodies.at(0).integrator, Integrator::Rk4);
+  EXPECT_EQ(first.world.gravity, Vec2(0.0, 300.0)); // not given anew, so the scene's
+  EXPECT_EQ(second.world.bodies.size(), 1U);
+  EXPECT_EQ(second.world.bodies[0].radius, 3.0);
+  EXPECT_EQ(second.world.seed, 7);
+  EXPECT_EQ(scene.panels.columns, 2);
+  EXPECT_EQ(scene.panels.pane, (std::array{200.0, 100.0}));
+  EXPECT_EQ(scene.size, (std::array{2 * 200 + 3 * 16, 100 + 2 * 16 + 8}));
+}
+
+TEST(Panels, PanesKeepTheirAspectInAnyGrid) {
+  Panels panels;
+  panels.pane = {320.0, 240.0};
+  panels.panels.resize(5);
+  for (const int columns : {1, 2, 3, 5}) {
+    panels.columns = columns;
+    panels.caption = 20.0;
+    for (std::size_t i = 0; i < 5; ++i) {
+      const auto place = panels.place(i, 1920.0, 1080.0);
+      EXPECT_NEAR(place[2] / place[3], 320.0 / 240.0, 1e-9) << columns;
+      EXPECT_GE(place[0], panels.gap - 1e-9);
+      EXPECT_GE(place[1], panels.gap + panels.caption - 1e-9);
+      EXPECT_LE(place[0] + place[2], 1920.0 - panels.gap + 1e-9);
+      EXPECT_LE(place[1] + place[3], 1080.0 - panels.gap + 1e-9);
+    }
+  }
+}
+
+/// Each pane shows exactly what its world shows alone, and nothing of a neighbour.
+TEST(Panels, ShowTheirWorldsInStep) {
+  const std::string half = "[[panel]]\n[[panel]]\nclock.fps = 10\n[panels]\ngap = 10\n";
+  const Scene scene = sceneOf(kBall + half);
+  SceneSource source(scene, Viewport::scaled(scene.size[0], scene.size[1], 1.0));
+  const Scene aloneScene = sceneOf(kBall);
+  SceneSource alone(aloneScene, Viewport::scaled(200, 100, 1.0));
+  const Scene slowScene = sceneOf(kBall + "[clock]\nfps = 10\n");
+  SceneSource slow(slowScene, Viewport::scaled(200, 100, 1.0));
+  for (int frame = 1; frame <= 27; ++frame) {
+    source.step();
+    alone.step();
+    if (frame % 6 == 0) slow.step();
+  }
+  const auto drawn = [](const SceneSource& of) {
+    Picture picture;
+    of.draw(picture);
+    return drawOnce(picture);
+  };
+  const Frame both = drawn(source);
+  const Frame first = drawn(alone);
+  const Frame second = drawn(slow);
+  ASSERT_EQ(both.width, 430);
+  ASSERT_EQ(both.height, 120);
+  for (int y = 0; y < 100; ++y) {
+    for (int x = 0; x < 200; ++x) {
+      ASSERT_EQ(pixel(both, x + 10, y + 10), pixel(first, x, y)) << "left, " << x << ", " << y;
+      ASSERT_EQ(pixel(both, x + 220, y + 10), pixel(second, x, y)) << "right, " << x << ", " << y;
+    }
+  }
+}
+
+TEST(Panels, OverlaidOnesAreColouredAndDrawnInOnePlace) {
+  const Scene scene = sceneOf(kBall + "[[panel]]\ncolor = \"red\"\n[[panel]]\ncolor = \"#00ff0080\"\n"
+                                      "[panels]\nlayout = \"overlaid\"\n");
+  EXPECT_EQ(scene.size, (std::array{200, 100}));
+  SceneSource source(scene, Viewport::scaled(200, 100, 1.0));
+  Picture picture;
+  source.draw(picture);
+  ASSERT_EQ(picture.primitives.size(), 2U);
+  EXPECT_EQ(picture.primitives[0].color, (Rgba8{255, 0, 0, 255}));
+  EXPECT_EQ(picture.primitives[1].color, (Rgba8{0, 255, 0, 128}));
+  EXPECT_EQ(picture.primitives[0].center, picture.primitives[1].center);
+}
+
+TEST(Panels, PixelsDoNotDependOnJobs) {
+  const TempDir dir;
+  writeFile(dir / "scene.toml",
+            kBall + "[[trail]]\n[[panel]]\ntitle = \"one\"\n[[panel]]\ntitle = \"two\"\nclock.fps = 20\n");
+  const auto hashes = [&](const char* name, const char* jobs) {
+    const ProcessResult result =
+        offstage({"render", dir / "scene.toml", "-o", dir / (std::string(name) + "%03d.png"), "--hash",
+                  dir / "hash.txt", "--jobs", jobs});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return readFile(dir / "hash.txt");
+  };
+  EXPECT_EQ(hashes("a", "0"), hashes("b", "2"));
+}
+
+TEST(Panels, TellWhatIsWrongOnceAndWhere) {
+  using ::testing::HasSubstr;
+  EXPECT_THAT(
+      errorsOf(
+          kBall +
+          "[[panel]]\nworld.integrator = \"rk5\"\n[[panel]]\nframe.size = [3, 4]\n[[panel]]\ncolor = 3\n"),
+      ::testing::ElementsAre(HasSubstr("scene.toml:12:20: error: 'integrator' in [world] must be"),
+                             HasSubstr("scene.toml:14:1: error: unknown key 'frame' in [[panel]]"),
+                             HasSubstr("scene.toml:16:9: error: 'color' in [[panel]]")));
+  EXPECT_THAT(errorsOf("[panels]\ngap = 3\n"), ::testing::ElementsAre(HasSubstr("there are none")));
+  EXPECT_THAT(errorsOf("[[body]]\nradius = 2\n[[panel]]\n[[panel]]\n"),
+              ::testing::ElementsAre(HasSubstr("[[body]] needs 'center'")));
+  EXPECT_THAT(errorsOf(kBall + "[[panel]]\n[panels]\nsize = [30, 20]\n"),
+              ::testing::ElementsAre(HasSubstr("no room")));
+}
+
+} // namespace
+} // namespace offstage::test

@@ -1,0 +1,185 @@
+#include "render/draw/axis.h"
+#include "render/draw/plot_data.h"
+#include "render/draw/simplify.h"
+#include "render/job/scene_source.h"
+#include "src/sim/world.h"
+#include "tests/support/process.h"
+#include "tests/support/scene_text.h"
+#include "tests/support/temp_dir.h"
+
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace offstage::test {
+namespace {
+
+std::vector<std::string> labelsOf(const Axis& axis, int most) {
+  std::vector<std::string> labels;
+  for (const Axis::Tick& tick : axis.ticks(most)) labels.push_back(tick.label);
+  return labels;
+}
+
+TEST(Axis, TicksAreRoundNumbers) {
+  using ::testing::ElementsAre;
+  EXPECT_THAT(labelsOf(Axis(0.0, 10.0, false), 6), ElementsAre("0", "2", "4", "6", "8", "10"));
+  EXPECT_THAT(labelsOf(Axis(-1.0, 1.0, false), 5), ElementsAre("−1.0", "−0.5", "0.0", "0.5", "1.0"));
+  EXPECT_THAT(labelsOf(Axis(0.13, 0.27, false), 4), ElementsAre("0.15", "0.20", "0.25"));
+  EXPECT_THAT(labelsOf(Axis(0.0, 3e7, false), 4), ElementsAre("0", "1·10⁷", "2·10⁷", "3·10⁷"));
+  EXPECT_THAT(labelsOf(Axis(1e-5, 10.0, true), 8),
+              ElementsAre("10⁻⁵", "10⁻⁴", "10⁻³", "0.01", "0.1", "1", "10"));
+  EXPECT_THAT(labelsOf(Axis(1.0, 10.0, true), 8), ElementsAre("1", "2", "5", "10"));
+}
+
+TEST(Axis, TicksAreAboutAsManyAsAskedForWhateverTheRange) {
+  for (int exponent = -12; exponent <= 12; ++exponent) {
+    for (double factor = 1.0; factor < 10.0; factor *= 1.17) {
+      const double high = factor * std::pow(10.0, exponent);
+      for (const int most : {3, 6, 10}) {
+        const auto count = Axis(-0.3 * high, high, false).ticks(most).size();
+        EXPECT_LE(count, static_cast<std::size_t>(most) + 1) << high;
+        EXPECT_GE(count, 2U) << high << " with " << most;
+      }
+    }
+  }
+}
+
+TEST(Axis, AroundHoldsAllValuesAndEndsAtTicks) {
+  const Axis axis = Axis::around(3.2, 17.1, false, 6);
+  EXPECT_EQ(axis.low(), 0.0);
+  EXPECT_EQ(axis.high(), 20.0);
+  EXPECT_EQ(axis.place(10.0), 0.5);
+  const Axis log = Axis::around(0.02, 300.0, true, 6);
+  EXPECT_DOUBLE_EQ(log.low(), 0.01);
+  EXPECT_DOUBLE_EQ(log.high(), 1000.0);
+  EXPECT_NEAR(log.place(1.0), 0.4, 1e-12);
+  EXPECT_TRUE(std::isnan(log.place(-1.0)));
+  const Axis single = Axis::around(5.0, 5.0, false, 4);
+  EXPECT_LT(single.low(), 5.0);
+  EXPECT_GT(single.high(), 5.0);
+  const Axis nothing = Axis::around(INFINITY, -INFINITY, false, 4);
+  EXPECT_EQ(nothing.low(), 0.0);
+  EXPECT_EQ(nothing.high(), 1.0);
+}
+
+TEST(Simplify, StaysWithinTheToleranceAndKeepsItsBeginning) {
+  PathSimplifier simplifier(0.1);
+  std::vector<Vec2> points;
+  std::vector<Vec2> before;
+  for (int i = 0; i <= 2000; ++i) {
+    points.emplace_back(0.25 * i, 100.0 + 80.0 * std::sin(0.01 * i));
+    simplifier.add(points.back());
+    const std::vector<Vec2> path = simplifier.path();
+    EXPECT_EQ(path.back(), points.back());
+    for (std::size_t k = 0; k + 2 < before.size(); ++k) ASSERT_EQ(path.at(k), before[k]) << "at point " << i;
+    before = path;
+  }
+  EXPECT_LT(before.size(), 150U);
+  for (const Vec2& point : points) {
+    double nearest = 1e9;
+    for (std::size_t k = 1; k < before.size(); ++k) {
+      const Vec2 along = before[k] - before[k - 1];
+      const double part = std::clamp((point - before[k - 1]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+      nearest = std::min(nearest, (before[k - 1] + along * part - point).norm());
+    }
+    ASSERT_LE(nearest, 0.2) << point.transpose();
+  }
+}
+
+const std::string kBall = "duration = 2.0\n[world]\ngravity = [0, 500]\n[walls]\nbottom = 0.8\n[[body]]\n"
+                          "name = \"ball\"\ncenter = [100, 300]\nradius = 20\nvelocity = [31, -7]\n";
+
+/// The numbers that a plot draws are those of `offstage trace`, to the last bit.
+TEST(Plot, ValuesAreThoseOfTheTrace) {
+  const TempDir dir;
+  const std::string text =
+      kBall + "[[plot]]\nx = \"ball.x\"\ny = [\"ball.y\", \"ball.vy\"]\n[[plot]]\ny = \"ball.vx\"\n";
+  writeFile(dir / "scene.toml", text);
+  const ProcessResult traced = offstage({"trace", dir / "scene.toml", "-o", dir / "trace.csv"});
+  ASSERT_EQ(traced.status, 0) << traced.err;
+  const Scene parsed = sceneOf(text);
+  const PlotData data(parsed.plots, {parsed.clock, parsed.world, parsed.replay});
+  std::istringstream lines(readFile(dir / "trace.csv"));
+  std::string line;
+  std::getline(lines, line);
+  ASSERT_EQ(line, "frame,id,time,x,y,vx,vy,radius,group");
+  std::size_t frame = 0;
+  for (; std::getline(lines, line); ++frame) {
+    std::vector<double> cells;
+    std::istringstream row(line);
+    for (std::string cell; std::getline(row, cell, ',');) {
+      double value = 0.0;
+      std::from_chars(cell.data(), cell.data() + cell.size(), value);
+      cells.push_back(value);
+    }
+    EXPECT_EQ(data.points(0, 0).at(frame).x, cells.at(3)) << line;
+    EXPECT_EQ(data.points(0, 0).at(frame).y, cells.at(4)) << line;
+    EXPECT_EQ(data.points(0, 1).at(frame).y, cells.at(6)) << line;
+    EXPECT_EQ(data.points(1, 0).at(frame).x, cells.at(2)) << line;
+    EXPECT_EQ(data.points(1, 0).at(frame).y, cells.at(5)) << line;
+  }
+  EXPECT_EQ(frame, 121U);
+  EXPECT_EQ(data.points(0, 0).size(), frame);
+}
+
+std::vector<Vec2> endsOfCurve(const std::string& plot, int steps) {
+  const Scene scene = sceneOf(kBall + plot);
+  SceneSource source(scene, Viewport::scaled(640, 480, 1.0));
+  for (int i = 0; i < steps; ++i) source.step();
+  Picture picture;
+  source.draw(picture);
+  std::vector<Vec2> ends;
+  for (const Primitive& primitive : picture.primitives)
+    if (primitive.kind == Primitive::Kind::Elbow) ends.push_back(primitive.high);
+  return ends;
+}
+
+TEST(Plot, CurvesGrowToThePresentUnlessWhole) {
+  const std::string plot = "[[plot]]\ny = \"ball.vx\"\narea = [0, 0, 640, 480]\ncursor = false\n";
+  const auto half = endsOfCurve(plot, 60);
+  const auto all = endsOfCurve(plot, 120);
+  const auto whole = endsOfCurve(plot + "whole = true\n", 60);
+  ASSERT_EQ(half.size(), 1U); // a constant: one straight line
+  ASSERT_EQ(whole.size(), 1U);
+  EXPECT_EQ(whole, all);
+  EXPECT_LT(half[0].x(), all[0].x() - 200.0);
+  EXPECT_EQ(half[0].y(), all[0].y()); // the axes stand still
+}
+
+TEST(Plot, LeavesEveryStateAsItIs) {
+  const Viewport viewport = Viewport::scaled(640, 480, 1.0);
+  SceneSource plain(sceneOf(kBall), viewport);
+  SceneSource plotted(sceneOf(kBall + "[[plot]]\ny = \"energy\"\nwhole = true\n"), viewport);
+  for (int i = 0; i < 120; ++i) {
+    ASSERT_EQ(plain.stateHash(), plotted.stateHash()) << "frame " << i;
+    plain.step();
+    plotted.step();
+  }
+}
+
+TEST(Plot, TellsWhatIsWrong) {
+  using ::testing::HasSubstr;
+  EXPECT_THAT(
+      errorsOf(kBall +
+               "[[plot]]\ny = [\"ball.spede\", 3]\nx_range = [2, 1]\ny_scale = \"log\"\ny_range = [0, 1]\n"
+               "area = [0, 0, 10, 10]\n[[plot]]\ntitle = \"x\"\n[[plot]]\ny = [\"ball.x\", \"ball.y\"]\n"
+               "color = [\"red\"]\nx = [\"t\", \"t\", \"t\"]\n"),
+      ::testing::ElementsAre(
+          HasSubstr("scene.toml:12:6: error: value 1 of 'y' in [[plot]] is no value of the scene"),
+          HasSubstr("scene.toml:12:20: error: value 2 of 'y' in [[plot]] must be the name of a value"),
+          HasSubstr("scene.toml:13:11: error: 'x_range' in [[plot]] must have the smaller number first"),
+          HasSubstr("scene.toml:15:11: error: 'y_range' in [[plot]] must be above 0"),
+          HasSubstr("scene.toml:16:8: error: 'area' in [[plot]] must be at least 40 px"),
+          HasSubstr("scene.toml:17:1: error: [[plot]] needs 'y'"),
+          HasSubstr("scene.toml:22:5: error: 'x' in [[plot]] must be one value or as many")));
+}
+
+} // namespace
+} // namespace offstage::test
