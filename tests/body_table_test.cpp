@@ -106,6 +106,9 @@ TEST(BodyTable, WhatIsWrongIsNamedWithItsPlace) {
               HasSubstr("t.csv:2:1: error: a circle needs 'y', and the table has no such column"));
   EXPECT_THAT(errors("x,y,radius\n1,2,3\n1;5,2,3\n"),
               HasSubstr("t.csv:3:1: error: 'x' of a body must be a finite number, but it is \"1;5\""));
+  EXPECT_THAT(errors("center,radius\n12-3,3\n"),
+              HasSubstr("t.csv:2:1: error: 'center' of a body must be two finite numbers"));
+  EXPECT_THAT(errors("center,radius\n\"[1,,2]\",3\n"), HasSubstr("must be two finite numbers"));
   EXPECT_THAT(errors("x,y,radius\n1,nan,3\n"),
               HasSubstr("t.csv:2:3: error: 'y' of a body must be a finite number"));
   EXPECT_THAT(

@@ -199,10 +199,9 @@ std::string sceneWith(const std::string& table, const Entries& entries) {
   if (table.starts_with("force")) return body + "[[force]]\n" + lines;
   const std::string section = "[[section]]\ntitle = \"b\"\nstart = 0\n";
   if (table == "caption" || table == "camera") return body + section + "[[" + table + "]]\n" + lines;
-  static const std::set<std::string> tables = {"body",         "bodies", "spawn",   "launch", "collide",
-                                               "trail",        "ghost",  "outline", "mark",   "arrow",
-                                               "contact_mark", "ruler",  "panel",   "plot",   "text",
-                                               "section",      "pause",  "speed"};
+  static const std::set<std::string> tables = {
+      "body",  "bodies",       "spawn", "launch", "collide", "trail", "ghost",   "outline", "mark",
+      "arrow", "contact_mark", "ruler", "panel",  "plot",    "text",  "section", "pause",   "speed"};
   const bool many = tables.contains(table);
   if (table == "panels") return body + "[[panel]]\n[[panel]]\n[panels]\n" + lines;
   return body + (many ? "[[" + table + "]]\n" : "[" + table + "]\n") + lines;

@@ -55,8 +55,8 @@ public:
   /// Those that draw() draws, in the same order. Valid until the next step.
   [[nodiscard]] std::span<const Body> shownBodies() const;
   [[nodiscard]] const Painter& painter() const { return painter_; }
-  /// From now on the bodies of the kept moments are drawn, instead of those of the present one; one that has not
-  /// moved since it was kept last is drawn once. What `still --strobe` shows.
+  /// From now on the bodies of the kept moments are drawn, instead of those of the present one; one that has
+  /// not moved since it was kept last is drawn once. What `still --strobe` shows.
   void keepMoment();
   /// Adds what is shown to a picture, without beginning a new one, and without title cards and fades.
   void paint(Picture& picture) const;

@@ -1,15 +1,13 @@
+#include "src/scene/body_cell.h"
 #include "src/scene/body_columns.h"
 #include "src/scene/csv_cells.h"
 #include "src/scene/limits.h"
 #include "src/scene/nearest.h"
 #include "src/scene/quote.h"
-#include "src/scene/scene_keys.h"
 #include "src/scene/text_file.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -26,66 +24,6 @@ constexpr std::uint32_t kCircleNeeds = 0x103U;
 constexpr std::uint32_t kRectangleNeeds = 0x00FU;
 constexpr std::array<std::pair<std::uint32_t, std::string_view>, 5> kNeeded{
     {{0x001U, "x"}, {0x002U, "y"}, {0x004U, "width"}, {0x008U, "height"}, {0x100U, "radius"}}};
-
-/// Reads a number that takes up all of `text`, or its first word when `rest` is given.
-std::optional<double> takeNumber(std::string_view text, std::string_view* rest = nullptr) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0.0;
-  const auto [stopped, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc{} || !std::isfinite(value)) return std::nullopt;
-  const auto used = static_cast<std::size_t>(stopped - text.data());
-  if (rest != nullptr) {
-    *rest = text.substr(used);
-  } else if (used != text.size()) {
-    return std::nullopt;
-  }
-  return value;
-}
-
-/// "[320, 440]", "320, 440" or "320 440".
-std::optional<std::array<double, 2>> takePair(std::string_view text) {
-  if (text.starts_with('[') && text.ends_with(']')) text = text.substr(1, text.size() - 2);
-  const auto skip = [&text](std::string_view letters) {
-    const std::size_t first = text.find_first_not_of(letters);
-    text.remove_prefix(first == std::string_view::npos ? text.size() : first);
-  };
-  skip(" \t");
-  const auto first = takeNumber(text, &text);
-  if (!first) return std::nullopt;
-  skip(" \t,");
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  const auto second = takeNumber(text);
-  if (!second) return std::nullopt;
-  return std::array{*first, *second};
-}
-
-/// A cell as the value that the key would have in a scene. Strings stand without quotes.
-TomlValue cellValue(std::string_view key, std::string_view text, std::uint32_t line, std::uint32_t column) {
-  const auto spec =
-      std::find_if(sceneKeyTable().begin(), sceneKeyTable().end(), [&](const SceneKey& candidate) {
-        return candidate.table == "body" && candidate.key == key;
-      });
-  if (spec->type == "string" || spec->type == "choice") return {std::string(text), line, column};
-  const auto relocate = [&](auto& self, TomlValue& value) -> void {
-    value.line = line;
-    value.column = column;
-    if (auto* array = std::get_if<TomlValue::Array>(&value.data)) {
-      for (TomlValue& element : *array) self(self, element);
-    } else if (auto* table = std::get_if<TomlValue::Table>(&value.data)) {
-      for (TomlEntry& entry : *table) {
-        entry.line = line;
-        entry.column = column;
-        self(self, entry.value);
-      }
-    }
-  };
-  Diagnostic ignored;
-  const std::optional<TomlValue> parsed = parseToml(fmt::format("v = {}", text), "", ignored);
-  TomlValue value{std::string(text), line, column};
-  if (parsed && parsed->table()->size() == 1) value = parsed->table()->front().value;
-  relocate(relocate, value);
-  return value;
-}
 
 /// Bodies from the rows of a CSV file. A row's numbers are read on the spot. The rest of it is read as a
 /// [[body]] of a scene is, once for all rows that agree in it, so that a hundred thousand bodies load at
@@ -306,11 +244,11 @@ bool BodyTable::readNumbers(const Kind& kind, BodyNumbers& numbers) {
     std::array<double, 2> values{};
     std::size_t count = 2;
     if (column.kind == BodyColumn::Kind::Pair) {
-      const auto pair = takePair(cell.text);
+      const auto pair = pairInCell(cell.text);
       if (pair) values = *pair;
       if (!pair) count = 0;
     } else {
-      const auto number = takeNumber(cell.text);
+      const auto number = numberInCell(cell.text);
       values[0] = number.value_or(0.0);
       count = number ? 1 : 0;
     }

@@ -213,10 +213,11 @@ std::string dump(const Scene& scene) {
   std::string text = fmt::format("title {}\nsize {} background {} scale {}\nclock {} {} {}\n", scene.title,
                                  fmt::join(scene.size, "x"), dump(Paint(scene.background)), scene.scale,
                                  scene.clock.fps(), scene.clock.steps(), scene.clock.duration());
-  text += fmt::format("pane {} gravity {} seed {} step {} {} substeps {} contacts {} {} groups {}\nwalls {}",
-                      dump(world.pane), dump(world.gravity), world.seed, static_cast<int>(world.stepping.form),
-                      world.stepping.dt, world.substeps, static_cast<int>(world.contactModel), world.iterations,
-                      fmt::join(world.groups, ","), world.walls.clamp);
+  text +=
+      fmt::format("pane {} gravity {} seed {} step {} {} substeps {} contacts {} {} groups {}\nwalls {}",
+                  dump(world.pane), dump(world.gravity), world.seed, static_cast<int>(world.stepping.form),
+                  world.stepping.dt, world.substeps, static_cast<int>(world.contactModel), world.iterations,
+                  fmt::join(world.groups, ","), world.walls.clamp);
   for (const auto& side : world.walls.restitution) text += side ? fmt::format(" {}", *side) : " open";
   for (const Look& look : scene.looks) text += "\nlook " + dump(look);
   for (const Body& body : world.bodies) text += "\nbody " + scene.bodyNames.at(body.id) + ' ' + dump(body);
