@@ -1,3 +1,4 @@
+#include "tests/support/bundle_scene.h"
 #include "tests/support/process.h"
 #include "tests/support/temp_dir.h"
 
@@ -14,45 +15,13 @@ const std::filesystem::path kPlaywright = OFFSTAGE_SOURCE_DIR "/build/npm/node_m
 const std::filesystem::path kChromium = "/usr/bin/chromium";
 const std::filesystem::path kNode = "/usr/bin/node";
 
-constexpr const char* kScene = R"(title = "A \"bundle\" <b>"
-duration = 2
-[frame]
-size = [128, 96]
-[clock]
-fps = 30
-[world]
-gravity = [0, 200]
-[walls]
-all = 0.9
-[[body]]
-center = [64, 20]
-radius = 10
-fill = "#0072b2"
-[[section]]
-title = "Start"
-start = 0
-[[section]]
-title = "</script>"
-start = 1
-[[caption]]
-text = "falls & falls"
-from = 0
-to = 0.8
-[[caption]]
-text = "bounces"
-from = 0.9
-to = 2
-[sound]
-clicks = true
-)";
-
 /// The video plays with sound, captions come in their time, chapters lead to theirs, nothing is loaded from
 /// elsewhere.
 TEST(BundleInABrowser, PlaysWithCaptionsAndChapters) {
   for (const std::filesystem::path& needed : {kPlaywright, kChromium, kNode})
     if (!std::filesystem::exists(needed)) GTEST_SKIP() << needed << " is missing; ./dev test installs it";
   const TempDir dir;
-  const std::string scene = dir.write("lecture.toml", kScene).string();
+  const std::string scene = dir.write("lecture.toml", kBundleScene).string();
   const std::string out = (dir / "out").string();
   ASSERT_EQ(offstage({"bundle", scene, "-o", out, "--progress", "none"}).status, 0);
   const ProcessResult result =

@@ -1,5 +1,6 @@
 #include "render/job/bundle_page.h"
 #include "render/output/staged_folder.h"
+#include "tests/support/bundle_scene.h"
 #include "tests/support/process.h"
 #include "tests/support/temp_dir.h"
 #include "tests/support/test_frames.h"
@@ -18,40 +19,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-constexpr const char* kScene = R"(title = "A \"bundle\" <b>"
-duration = 2
-[frame]
-size = [128, 96]
-[clock]
-fps = 30
-[world]
-gravity = [0, 200]
-[walls]
-all = 0.9
-[[body]]
-center = [64, 20]
-radius = 10
-fill = "#0072b2"
-[[section]]
-title = "Start"
-start = 0
-[[section]]
-title = "</script>"
-start = 1
-[[caption]]
-text = "falls & falls"
-from = 0
-to = 0.8
-[[caption]]
-text = "bounces"
-from = 0.9
-to = 2
-[sound]
-clicks = true
-[poster]
-at = 0.5
-)";
 
 TEST(StagedFolder, TakesThePlaceOnlyOfWhatItMade) {
   const TempDir dir;
@@ -106,7 +73,7 @@ TEST(BundlePage, EscapesEveryText) {
 
 TEST(Bundle, HoldsEverythingThatALecturesPageNeeds) {
   const TempDir dir;
-  const std::string scene = dir.write("lecture.toml", kScene).string();
+  const std::string scene = dir.write("lecture.toml", kBundleScene).string();
   const std::string out = (dir / "out").string();
   const ProcessResult result = offstage({"bundle", scene, "-o", out, "--progress", "none"});
   ASSERT_EQ(result.status, 0) << result.err;
@@ -142,7 +109,7 @@ TEST(Bundle, HoldsEverythingThatALecturesPageNeeds) {
 
 TEST(Poster, IsDrawnAtItsMomentInItsResolution) {
   const TempDir dir;
-  const std::string scene = dir.write("scene.toml", kScene).string();
+  const std::string scene = dir.write("scene.toml", kBundleScene).string();
   const std::string poster = (dir / "p.png").string();
   ASSERT_EQ(offstage({"render", scene, "--poster", poster, "--scale", "4"}).status, 0);
   ASSERT_EQ(offstage({"still", scene, "--at", "0.5", "--scale", "4", "-o", (dir / "s.png").string()}).status,

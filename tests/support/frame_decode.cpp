@@ -1,5 +1,6 @@
 #include "tests/support/frame_decode.h"
 
+#include "tests/support/libav_handles.h"
 #include "tests/support/test_frames.h"
 
 #include <algorithm>
@@ -10,20 +11,11 @@
 #include <stdexcept>
 
 extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
 #include <libavutil/pixdesc.h>
 }
 
 namespace offstage::test {
 namespace {
-
-struct Free {
-  void operator()(AVFormatContext* context) const { avformat_close_input(&context); }
-  void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }
-  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
-};
 
 void require(bool good, const std::string& what) {
   if (!good) throw std::runtime_error(what);
@@ -86,7 +78,7 @@ Frame toRgba(const AVFrame& picture) {
 std::vector<ShownFrame> decodeFrames(const std::filesystem::path& file) {
   AVFormatContext* opened = nullptr;
   require(avformat_open_input(&opened, ("file:" + file.native()).c_str(), nullptr, nullptr) >= 0, "open");
-  const std::unique_ptr<AVFormatContext, Free> format(opened);
+  const std::unique_ptr<AVFormatContext, LibavFree> format(opened);
   require(avformat_find_stream_info(opened, nullptr) >= 0 && opened->nb_streams == 1, "streams");
   const AVStream& stream = *opened->streams[0];
   // FFmpeg's own VP9 decoder leaves the alpha out.
@@ -94,14 +86,14 @@ std::vector<ShownFrame> decodeFrames(const std::filesystem::path& file) {
                              ? avcodec_find_decoder_by_name("libvpx-vp9")
                              : avcodec_find_decoder(stream.codecpar->codec_id);
   require(codec != nullptr, "decoder");
-  const std::unique_ptr<AVCodecContext, Free> decoder(avcodec_alloc_context3(codec));
+  const std::unique_ptr<AVCodecContext, LibavFree> decoder(avcodec_alloc_context3(codec));
   require(avcodec_parameters_to_context(decoder.get(), stream.codecpar) >= 0, "parameters");
   decoder->pkt_timebase = stream.time_base;
   require(avcodec_open2(decoder.get(), codec, nullptr) >= 0, "open decoder");
 
   std::vector<ShownFrame> shown;
-  const std::unique_ptr<AVPacket, Free> packet(av_packet_alloc());
-  const std::unique_ptr<AVFrame, Free> picture(av_frame_alloc());
+  const std::unique_ptr<AVPacket, LibavFree> packet(av_packet_alloc());
+  const std::unique_ptr<AVFrame, LibavFree> picture(av_frame_alloc());
   const auto receive = [&] {
     while (avcodec_receive_frame(decoder.get(), picture.get()) >= 0) {
       require(picture->decode_error_flags == 0, "a frame is damaged");

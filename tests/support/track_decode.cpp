@@ -1,5 +1,6 @@
 #include "tests/support/track_decode.h"
 
+#include "tests/support/libav_handles.h"
 #include "tests/support/temp_dir.h"
 
 #include <algorithm>
@@ -9,27 +10,10 @@
 #include <stdexcept>
 #include <string_view>
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-}
-
 namespace offstage::test {
 namespace {
 
-struct Free {
-  void operator()(AVFormatContext* context) const { avformat_close_input(&context); }
-  void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }
-  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
-};
-
 constexpr AVRational kNanosecond{1, 1000000000};
-
-int require(int result, const char* what) {
-  if (result < 0) throw std::runtime_error(what);
-  return result;
-}
 
 /// Puts a decoded piece where its time says.
 void place(const AVFrame& frame, AVRational timeBase, DecodedTracks& tracks) {
@@ -67,9 +51,9 @@ class TrackDecoder {
 public:
   explicit TrackDecoder(const std::filesystem::path& file) {
     AVFormatContext* opened = nullptr;
-    require(avformat_open_input(&opened, ("file:" + file.native()).c_str(), nullptr, nullptr), "open");
+    requireLibav(avformat_open_input(&opened, ("file:" + file.native()).c_str(), nullptr, nullptr), "open");
     format_.reset(opened);
-    require(avformat_find_stream_info(opened, nullptr), "find streams");
+    requireLibav(avformat_find_stream_info(opened, nullptr), "find streams");
   }
 
   DecodedTracks decode() {
@@ -77,7 +61,7 @@ public:
     while (true) {
       const int result = av_read_frame(format_.get(), packet_.get());
       if (result == AVERROR_EOF) break;
-      require(result, "read");
+      requireLibav(result, "read");
       const AVStream& stream = *format_->streams[packet_->stream_index];
       if (stream.codecpar->codec_type == AVMEDIA_TYPE_SUBTITLE) addCue(*packet_, stream, tracks_);
       if (&stream == sound_) feed(packet_.get());
@@ -99,9 +83,9 @@ private:
       tracks_.soundChannels = stream.codecpar->ch_layout.nb_channels;
       const AVCodec* codec = avcodec_find_decoder(stream.codecpar->codec_id);
       decoder_.reset(avcodec_alloc_context3(codec));
-      require(avcodec_parameters_to_context(decoder_.get(), stream.codecpar), "codec parameters");
+      requireLibav(avcodec_parameters_to_context(decoder_.get(), stream.codecpar), "codec parameters");
       decoder_->pkt_timebase = stream.time_base;
-      require(avcodec_open2(decoder_.get(), codec, nullptr), "open decoder");
+      requireLibav(avcodec_open2(decoder_.get(), codec, nullptr), "open decoder");
     }
     for (unsigned i = 0; i < format_->nb_chapters; ++i) {
       const AVChapter& chapter = *format_->chapters[i];
@@ -113,19 +97,19 @@ private:
   }
 
   void feed(const AVPacket* packet) {
-    require(avcodec_send_packet(decoder_.get(), packet), "decode");
+    requireLibav(avcodec_send_packet(decoder_.get(), packet), "decode");
     while (true) {
       const int result = avcodec_receive_frame(decoder_.get(), frame_.get());
       if (result == AVERROR(EAGAIN) || result == AVERROR_EOF) return;
-      require(result, "receive");
+      requireLibav(result, "receive");
       place(*frame_, sound_->time_base, tracks_);
     }
   }
 
-  std::unique_ptr<AVFormatContext, Free> format_;
-  std::unique_ptr<AVCodecContext, Free> decoder_;
-  std::unique_ptr<AVPacket, Free> packet_{av_packet_alloc()};
-  std::unique_ptr<AVFrame, Free> frame_{av_frame_alloc()};
+  std::unique_ptr<AVFormatContext, LibavFree> format_;
+  std::unique_ptr<AVCodecContext, LibavFree> decoder_;
+  std::unique_ptr<AVPacket, LibavFree> packet_{av_packet_alloc()};
+  std::unique_ptr<AVFrame, LibavFree> frame_{av_frame_alloc()};
   const AVStream* sound_ = nullptr;
   DecodedTracks tracks_;
 };

@@ -1,5 +1,6 @@
 #include "tests/support/video_decode.h"
 
+#include "tests/support/libav_handles.h"
 #include "tests/support/temp_dir.h"
 #include "tests/support/test_frames.h"
 
@@ -10,8 +11,6 @@
 #include <stdexcept>
 
 extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
 #include <libavutil/pixdesc.h>
 }
 
@@ -19,23 +18,9 @@ namespace offstage::test {
 
 namespace {
 
-struct Free {
-  void operator()(AVFormatContext* context) const { avformat_close_input(&context); }
-  void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }
-  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
-};
-
 constexpr AVRational kNanosecond{1, 1000000000};
 /// The unit of AVFormatContext::duration.
 constexpr AVRational kLibavTick{1, AV_TIME_BASE};
-
-int require(int result, const char* what) {
-  if (result >= 0) return result;
-  std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
-  av_strerror(result, text.data(), text.size());
-  throw std::runtime_error(std::string(what) + ": " + text.data());
-}
 
 std::string nameOr(const char* name) {
   return name == nullptr ? "unknown" : name;
@@ -55,7 +40,7 @@ void receivePictures(AVCodecContext& decoder, AVRational timeBase, AVFrame& fram
   while (true) {
     const int result = avcodec_receive_frame(&decoder, &frame);
     if (result == AVERROR(EAGAIN) || result == AVERROR_EOF) return;
-    require(result, "receive frame");
+    requireLibav(result, "receive frame");
     if (frame.decode_error_flags != 0) throw std::runtime_error("a frame is damaged");
     DecodedPicture picture;
     picture.start = av_rescale_q(frame.pts, timeBase, kNanosecond);
@@ -113,33 +98,33 @@ std::uint8_t toByte(double value) {
 
 DecodedVideo decodeVideo(const std::filesystem::path& file) {
   AVFormatContext* opened = nullptr;
-  require(avformat_open_input(&opened, ("file:" + file.native()).c_str(), nullptr, nullptr), "open");
-  const std::unique_ptr<AVFormatContext, Free> format(opened);
-  require(avformat_find_stream_info(format.get(), nullptr), "find streams");
+  requireLibav(avformat_open_input(&opened, ("file:" + file.native()).c_str(), nullptr, nullptr), "open");
+  const std::unique_ptr<AVFormatContext, LibavFree> format(opened);
+  requireLibav(avformat_find_stream_info(format.get(), nullptr), "find streams");
   if (format->nb_streams != 1) throw std::runtime_error("not exactly one stream");
   const AVStream& stream = *format->streams[0];
   DecodedVideo video;
   describe(*format, stream, video);
 
   const AVCodec* codec = avcodec_find_decoder(stream.codecpar->codec_id);
-  const std::unique_ptr<AVCodecContext, Free> decoder(avcodec_alloc_context3(codec));
-  require(avcodec_parameters_to_context(decoder.get(), stream.codecpar), "codec parameters");
+  const std::unique_ptr<AVCodecContext, LibavFree> decoder(avcodec_alloc_context3(codec));
+  requireLibav(avcodec_parameters_to_context(decoder.get(), stream.codecpar), "codec parameters");
   decoder->err_recognition = AV_EF_EXPLODE;
   decoder->pkt_timebase = stream.time_base;
-  require(avcodec_open2(decoder.get(), codec, nullptr), "open decoder");
+  requireLibav(avcodec_open2(decoder.get(), codec, nullptr), "open decoder");
 
-  const std::unique_ptr<AVPacket, Free> packet(av_packet_alloc());
-  const std::unique_ptr<AVFrame, Free> frame(av_frame_alloc());
+  const std::unique_ptr<AVPacket, LibavFree> packet(av_packet_alloc());
+  const std::unique_ptr<AVFrame, LibavFree> frame(av_frame_alloc());
   while (true) {
     const int result = av_read_frame(format.get(), packet.get());
     if (result == AVERROR_EOF) break;
-    require(result, "read");
+    requireLibav(result, "read");
     video.decodeTimes.push_back(av_rescale_q(packet->dts, stream.time_base, kNanosecond));
-    require(avcodec_send_packet(decoder.get(), packet.get()), "decode");
+    requireLibav(avcodec_send_packet(decoder.get(), packet.get()), "decode");
     av_packet_unref(packet.get());
     receivePictures(*decoder, stream.time_base, *frame, video);
   }
-  require(avcodec_send_packet(decoder.get(), nullptr), "flush");
+  requireLibav(avcodec_send_packet(decoder.get(), nullptr), "flush");
   receivePictures(*decoder, stream.time_base, *frame, video);
   return video;
 }
