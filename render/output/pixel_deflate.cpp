@@ -3,37 +3,11 @@
 #include "render/output/byte_order.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 
 #include <libdeflate.h>
 
 namespace offstage {
 namespace {
-
-/// How many of the 8 bytes from `at` on equal those `distance` before, up to the first that does not.
-std::size_t equalOfEight(const std::uint8_t* at, std::size_t distance) {
-  std::uint64_t here = 0;
-  std::uint64_t there = 0;
-  std::memcpy(&here, at, sizeof here);
-  std::memcpy(&there, at - distance, sizeof there);
-  return static_cast<std::size_t>(std::countr_zero(here ^ there)) / 8;
-}
-
-/// How many bytes from `at` on, below `end`, equal those `distance` before, in whole pixels.
-template <std::size_t Channels>
-std::size_t repeated(const std::uint8_t* at, const std::uint8_t* end, std::size_t distance) {
-  const std::uint8_t* const begin = at;
-  std::size_t equal = 8;
-  while (equal == 8 && end - at >= 8) {
-    equal = equalOfEight(at, distance);
-    at += equal;
-  }
-  if (equal == 8) {
-    while (at < end && *at == *(at - distance)) ++at;
-  }
-  return static_cast<std::size_t>(at - begin) / Channels * Channels;
-}
 
 // 32 KiB of window, the fastest compressor's mark, and the check bits that make it divisible by 31.
 constexpr std::uint8_t kZlibMethod = 0x78;
@@ -53,6 +27,8 @@ PixelDeflater::PixelDeflater(std::size_t width, std::size_t channels)
     : channels_(channels),
       rowBytes_(1 + width * channels),
       reachesAbove_(rowBytes_ <= DeflateBlock::kFarthest),
+      before_((width - 1) * channels),
+      above_(width * channels),
       block_(channels, reachesAbove_ ? rowBytes_ : 0) {}
 
 void PixelDeflater::addMatch(std::size_t length, bool above) {
@@ -68,19 +44,25 @@ void PixelDeflater::addMatch(std::size_t length, bool above) {
 
 template <std::size_t Channels>
 void PixelDeflater::addRow(const std::uint8_t* row, bool first) {
-  const std::uint8_t* const end = row + rowBytes_;
   block_.addLiterals(row, 1);
-  const std::uint8_t* at = row + 1;
+  const std::uint8_t* const pixels = row + 1;
+  const std::size_t bytes = rowBytes_ - 1;
   const bool above = reachesAbove_ && !first;
-  while (at < end) {
-    const std::size_t run = at == row + 1 ? 0 : repeated<Channels>(at, end, Channels);
+  before_.compare(pixels + Channels, Channels);
+  if (above) above_.compare(pixels, rowBytes_);
+  // The bytes from `at` on that are to be had as a repetition, in whole pixels.
+  const auto asBefore = [&](std::size_t at) {
+    return at == 0 ? 0 : before_.run(at - Channels) / Channels * Channels;
+  };
+  const auto asAbove = [&](std::size_t at) { return above_.run(at) / Channels * Channels; };
+  std::size_t at = 0;
+  while (at < bytes) {
+    const std::size_t run = asBefore(at);
     // A run that is short may end where the row above goes on.
-    std::size_t same = above && run < kLongRun ? repeated<Channels>(at, end, rowBytes_) : 0;
+    std::size_t same = above && run < kLongRun ? asAbove(at) : 0;
     if (same < run + kLeastAbove * Channels) same = 0;
-    if (run == 0 && same >= kLongRun) {
-      // The runs that follow a pixel which stands for itself are cheaper than one long match.
-      if (repeated<Channels>(at + Channels, end, Channels) + Channels >= same) same = 0;
-    }
+    // The runs that follow a pixel which stands for itself are cheaper than one long match.
+    if (run == 0 && same >= kLongRun && asBefore(at + Channels) + Channels >= same) same = 0;
     if (same > 0) {
       same = std::min(same, kLongRun); // what then follows is most often a run
       addMatch(same, true);
@@ -89,7 +71,7 @@ void PixelDeflater::addRow(const std::uint8_t* row, bool first) {
       addMatch(run, false);
       at += run;
     } else {
-      block_.addLiterals(at, Channels);
+      block_.addLiterals(pixels + at, Channels);
       ++literalPixels_;
       at += Channels;
     }

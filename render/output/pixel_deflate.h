@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/output/deflate_block.h"
+#include "render/output/repeat_mask.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -31,6 +32,8 @@ private:
   std::size_t channels_;
   std::size_t rowBytes_;
   bool reachesAbove_;
+  RepeatMask before_; ///< from the second pixel of a row on
+  RepeatMask above_;
   DeflateBlock block_;
   std::size_t literalPixels_ = 0;
 };

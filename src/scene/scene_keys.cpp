@@ -1,5 +1,8 @@
 #include "src/scene/scene_keys.h"
 
+#include <algorithm>
+#include <vector>
+
 namespace offstage {
 namespace {
 
@@ -402,10 +405,22 @@ constexpr SceneKey kKeys[] = {
 };
 // clang-format on
 
+std::vector<const SceneKey*> sortedByName() {
+  std::vector<const SceneKey*> keys;
+  for (const SceneKey& key : kKeys) keys.push_back(&key);
+  std::ranges::stable_sort(keys, {}, &SceneKey::key);
+  return keys;
+}
+
 } // namespace
 
 std::span<const SceneKey> sceneKeyTable() {
   return kKeys;
+}
+
+std::span<const SceneKey* const> sceneKeysNamed(std::string_view key) {
+  static const std::vector<const SceneKey*> kByName = sortedByName();
+  return std::ranges::equal_range(kByName, key, {}, &SceneKey::key);
 }
 
 std::vector<SceneKey> sceneKeys() {

@@ -49,10 +49,8 @@ TableReader::TableReader(const TomlValue& value, std::initializer_list<std::stri
 }
 
 const SceneKey& TableReader::spec(std::string_view key) const {
-  for (const SceneKey& candidate : sceneKeyTable()) {
-    if (candidate.key == key && std::find(tables_.begin(), tables_.end(), candidate.table) != tables_.end()) {
-      return candidate;
-    }
+  for (const SceneKey* candidate : sceneKeysNamed(key)) {
+    if (std::find(tables_.begin(), tables_.end(), candidate->table) != tables_.end()) return *candidate;
   }
   throw std::logic_error(fmt::format("the list of scene keys lacks '{}' of {}", key, label_));
 }
@@ -202,11 +200,10 @@ void TableReader::reportUnknownKeys() const {
   if (table == nullptr) return;
   for (const TomlEntry& entry : *table) {
     if (errors_.full()) return;
-    const bool known =
-        std::any_of(sceneKeyTable().begin(), sceneKeyTable().end(), [&](const SceneKey& candidate) {
-          return candidate.key == entry.key &&
-                 std::find(tables_.begin(), tables_.end(), candidate.table) != tables_.end();
-        });
+    const auto named = sceneKeysNamed(entry.key);
+    const bool known = std::any_of(named.begin(), named.end(), [&](const SceneKey* candidate) {
+      return std::find(tables_.begin(), tables_.end(), candidate->table) != tables_.end();
+    });
     if (known) continue;
     const std::string place = label_.empty() ? "" : " in " + label_;
     const std::string quotedKey = quotedText(prefix_ + entry.key);
