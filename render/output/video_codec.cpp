@@ -28,24 +28,29 @@ namespace {
 //   veryfast, crf 20   0.76    52 .99961    2.80   1942 .98678    2.53   6024 .94704
 //   D                  0.58    53 .99962    1.71   2053 .98722    1.97   6345 .95039
 //   E                  0.50    52 .99962    1.50   2084 .98707    1.70   6400 .95040
-// and of 60 frames at all three, KiB, SSIM; their CPU seconds are the same within what the machine varies:
-//   veryfast, crf 20            52 .99961          1942 .98678         12010 .94665
-//   E                           52 .99962          2087 .98706         12753 .95002
-//   E, no-deblock=1              -      -          2098 .98548         12813 .94440
-//   E, no 8x8dct, crf 18.7      48 .99959          1934 .98679         11979 .95056
-//   the one below               51 .99962          2056 .98762         12699 .95421
+// and of 60 frames at all three, and of a photo on 100 circles (P), KiB, SSIM; their CPU seconds are the same
+// within what the machine varies:
+//                            N = 10       N = 1000       N = 10000        P
+//   veryfast, crf 20         52 .99961    1942 .98678    12010 .94665    947 .99155
+//   E                        52 .99962    2087 .98706    12753 .95002    913 .99184
+//   E, no 8x8dct, crf 18.7   48 .99959    1934 .98679    11979 .95056     -     -
+//   F                        51 .99961    2056 .98762    12699 .95421    904 .99176
+//   F, qcomp=0.4, crf 16.6   52 .99962    2041 .98764    12247 .95192    885 .99188
+//   the one below            52 .99962    2018 .98746    11676 .94861    889 .99217
+//   F, qcomp=0.2, crf 13.8   53 .99963    2004 .98725    11198 .94546    886 .99228
 // A: subme=1 b-adapt=0, crf 18. B: A with rc-lookahead=20 bframes=4 weightp=0 direct=temporal, crf 20.
 // C: B with rc-lookahead=5 bframes=2 b-pyramid=none qcomp=0.65, crf 20.2.
-// D: C with dct-decimate=0 qcomp=0.5, crf 18. E: D with me=dia merange=8. The one below: E without 8x8
-// intra blocks, whose prediction blurs small circles (without any 8x8 transform the profile would be Main).
-// Where bodies move on, the temporal prediction of B-frames is exact; weights, which help with fades, cost
-// time. x264 drops blocks that have few small coefficients (decimation); in flat graphics those are the
-// edges. A low qcomp spends less where much moves. Every frame of lookahead takes 6 MB at this size and the
-// pyramid 30 MB, so B takes 330 MB a worker and this one 200. Psychovisual optimisation does nothing below
-// subme 6. cpu-independent: else x264 chooses some algorithms by the processor, and the bytes with them.
+// D: C with dct-decimate=0 qcomp=0.5, crf 18. E: D with me=dia merange=8. F: E without 8x8 intra blocks,
+// whose prediction blurs small circles (without any 8x8 transform the profile would be Main), crf 18.1. The
+// one below: F with qcomp=0.3, crf 15.2. Where bodies move on, the temporal prediction of B-frames is exact;
+// weights, which help with fades, cost time. x264 drops blocks that have few small coefficients (decimation);
+// in flat graphics those are the edges. A low qcomp spends less where much moves. Every frame of lookahead
+// takes 6 MB at this size and the pyramid 30 MB, so B takes 330 MB a worker and this one 200. Psychovisual
+// optimisation does nothing below subme 6. cpu-independent: else x264 chooses some algorithms by the
+// processor, and the bytes with them.
 constexpr const char* kX264Fast =
     "subme=1:b-adapt=0:bframes=2:b-pyramid=none:weightp=0:direct=temporal:"
-    "dct-decimate=0:rc-lookahead=5:qcomp=0.5:me=dia:merange=8:partitions=p8x8,b8x8,i4x4:cpu-independent=1";
+    "dct-decimate=0:rc-lookahead=5:qcomp=0.3:me=dia:merange=8:partitions=p8x8,b8x8,i4x4:cpu-independent=1";
 
 const std::vector<CodecTraits> kCodecs{
     {VideoCodec::H264, "libx264", ".mp4 .mkv .mov", "libavcodec59", "H.264", false, true, 16384, "h264",
@@ -73,9 +78,9 @@ using OptionList = std::vector<std::pair<std::string, std::string>>;
 OptionList h264Options(Quality quality) {
   switch (quality) {
   case Quality::Draft:
-    return {{"preset", "superfast"}, {"profile", "high"}, {"crf", "30"}, {"x264-params", kX264Fast}};
+    return {{"preset", "superfast"}, {"profile", "high"}, {"crf", "28"}, {"x264-params", kX264Fast}};
   case Quality::Good:
-    return {{"preset", "veryfast"}, {"profile", "high"}, {"crf", "18.1"}, {"x264-params", kX264Fast}};
+    return {{"preset", "veryfast"}, {"profile", "high"}, {"crf", "15.2"}, {"x264-params", kX264Fast}};
   case Quality::High:
     return {{"preset", "medium"}, {"profile", "high"}, {"crf", "14"}, {"x264-params", "cpu-independent=1"}};
   case Quality::Lossless:
