@@ -104,10 +104,11 @@ TEST_F(Warned, StrictMakesNothingAndLeavesWhatIsThere) {
       {"render", "shot.toml", "--hash", "x.txt", "--strict"},
       {"render", "shot.toml", "--poster", "x.png", "--to", "1", "--strict"}, // of the whole video's middle
       {"still", "shot.toml", "--at", "6", "-o", "x.png", "--strict"},
-      {"trace", "shot.toml", "-o", "x.csv", "--events", "x.txt", "--strict"},
+      {"trace", "shot.toml", "-o", "x.csv", "--events", "x.jsonl", "--strict"},
       {"bundle", "shot.toml", "-o", "b", "--strict"},
       {"bundle", "shot.toml", "-o", "b", "--to", "1", "--strict"}};
-  for (const char* name : {"x.mp4", "x.raw", "x000.png", "x.txt", "x.png", "x.csv"}) dir_.write(name, "mine");
+  for (const char* name : {"x.mp4", "x.raw", "x000.png", "x.txt", "x.png", "x.csv", "x.jsonl"})
+    dir_.write(name, "mine");
   std::filesystem::create_directory(dir_ / "b");
   const std::vector<std::string> before = dir_.names();
   for (const auto& command : commands) {
@@ -119,7 +120,7 @@ TEST_F(Warned, StrictMakesNothingAndLeavesWhatIsThere) {
     EXPECT_EQ(dir_.names(), before) << command[0] << ' ' << command[3];
     EXPECT_THAT(dir_.names("b"), IsEmpty());
   }
-  for (const char* name : {"x.mp4", "x.raw", "x000.png", "x.txt", "x.png", "x.csv"})
+  for (const char* name : {"x.mp4", "x.raw", "x000.png", "x.txt", "x.png", "x.csv", "x.jsonl"})
     EXPECT_EQ(readFile(dir_ / name), "mine") << name;
 }
 

@@ -141,7 +141,7 @@ TEST(Watch, OnlyPairsWithARuleThatDidNotTouchHaveCrossed) {
 TEST(Watch, TwoThatFlyThroughEachOtherAndTwoThatFlySideBySide) {
   WorldSetup setup = floating();
   setup.contacts = {{.groupA = 0, .groupB = 0}};
-  setup.bodies = {circle(300, 240, 5, Vec2(1500, 0)), circle(345, 240, 5, Vec2(-1500, 0))};
+  setup.bodies = {circle(300, 240, 5, Vec2(1500, 0)), circle(335, 240, 5, Vec2(-1500, 0))};
   EXPECT_EQ(only<Crossing>(warningsOf(setup, 3)).way, 50.0);
   setup.bodies[1] = circle(312, 240, 5, Vec2(1500, 0));
   EXPECT_THAT(warningsOf(setup, 3), IsEmpty());

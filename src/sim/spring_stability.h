@@ -16,7 +16,7 @@ namespace offstage {
 ///   explicit Euler, midpoint      always                the same; |R(iy)|² = 1 + y² and 1 + y⁴/4
 ///
 /// Since the last two grow with any step, a step is too long for them when the motion more than doubles in
-/// one swing, 2π/frequency; undamped that is from h·frequency = 0.2222 and 0.8325 on. The closed form has no
+/// one swing, 2π/frequency; undamped that is from h·frequency = 0.2262 and 0.9956 on. The closed form has no
 /// limit.
 bool isTooLong(Integrator method, double frequency, double damping, double h);
 
