@@ -247,6 +247,46 @@ TEST(Watch, ASlingshotPastAPointThatAttractsGainsEnergy) {
   EXPECT_THAT(warningsOf(setup, 600), IsEmpty()) << "softened";
 }
 
+/// A run of 10 s of a body under an expression and, if any, what else stands in the scene.
+std::vector<std::string> drivenBy(const std::string& fx, const std::string& fy,
+                                  const std::string& more = {}) {
+  return warningsOf(
+      sceneOf("duration = 10.0\n[world]\ngravity = [0, 0]\n[[body]]\nname = \"b\"\ncenter = "
+              "[330, 240]\nradius = 5\nvelocity = [30, 20]\n[[force]]\ntype = \"expression\"\nfx = \"" +
+              fx + "\"\nfy = \"" + fy + "\"\n" + more));
+}
+
+TEST(Watch, TheWorkOfExpressionsAndWindIsNotFromNowhere) {
+  EXPECT_THAT(drivenBy("500", "0"), IsEmpty()) << "a constant pull";
+  EXPECT_THAT(drivenBy("-25*(x-320)+200*sin(5*t)", "-25*(y-240)"), IsEmpty()) << "resonance";
+  EXPECT_THAT(drivenBy("2*vx", "2*vy"), IsEmpty()) << "negative drag: e^40 times the energy";
+  EXPECT_THAT(drivenBy("3*vy", "-3*vx"), IsEmpty()) << "a magnetic field";
+  EXPECT_THAT(drivenBy("0", "0", "[[force]]\ntype = \"wind\"\nvelocity = [900, 0]\ncoefficient = 2\n"),
+              IsEmpty());
+  EXPECT_THAT(drivenBy("0", "0",
+                       "[[body]]\ncenter = [200, 100]\nradius = 3\nvelocity = [0, 40]\n[[force]]\ntype = "
+                       "\"attract\"\nto = \"b\"\nstrength = 5e5\nsoftening = 20\n"),
+              IsEmpty());
+}
+
+TEST(Watch, AForceThatSetsInAtOnceMayPushABodyFromRest) {
+  for (const char* integrator : {"explicit-euler", "semi-implicit-euler", "verlet", "midpoint", "rk4"}) {
+    EXPECT_THAT(warningsOf(sceneOf("duration = 3.0\n[world]\ngravity = [0, 0]\nintegrator = \"" +
+                                   std::string(integrator) +
+                                   "\"\n[[body]]\ncenter = [330, 240]\nradius = 5\n[[force]]\ntype = "
+                                   "\"expression\"\nfx = \"t > 1 ? 9000 : 0\"\n")),
+                IsEmpty())
+        << integrator;
+  }
+}
+
+TEST(Watch, AStiffExpressionGainsEnergyAsASpringDoes) {
+  EXPECT_THAT(drivenBy("-40000*(x-320)", "-40000*(y-240)"),
+              ElementsAre(HasSubstr("[energy]"), HasSubstr("[lost]")))
+      << "and at last beyond all numbers";
+  EXPECT_THAT(drivenBy("-4000*(x-320)", "-4000*(y-240)"), IsEmpty());
+}
+
 TEST(Watch, TheSlidesFormulaMakesEnergyThatItIsShownFor) {
   WorldSetup setup = floating();
   setup.walls.restitution.fill(1.0);

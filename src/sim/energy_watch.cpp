@@ -1,6 +1,5 @@
 #include "src/sim/energy_watch.h"
 
-#include "src/sim/force_field.h"
 #include "src/sim/world.h"
 
 #include <algorithm>
@@ -27,14 +26,26 @@ double kinetic(const Body& body) {
 
 } // namespace
 
-EnergyWatch::EnergyWatch(const WorldSetup& setup)
-    : judges_(std::none_of(setup.forces.begin(), setup.forces.end(),
-                           [&](const Force& force) { return drives(force, setup); })) {
+EnergyWatch::EnergyWatch(const WorldSetup& setup) {
+  WorldSetup driving;
+  driving.gravity = Vec2::Zero();
+  for (const Force& force : setup.forces) {
+    (drives(force, setup) ? driving.forces : keeping_).push_back(force);
+    causes_.attract = causes_.attract || std::holds_alternative<AttractForce>(force.kind);
+  }
+  isDriven_ = !driving.forces.empty();
+  driving_ = ForceField(driving);
   for (const ContactRule& rule : setup.contacts)
     if (rule.response == Response::Slide) slides_.push_back(rule);
   for (const auto& edge : setup.walls.restitution) causes_.walls = causes_.walls || (edge && *edge > 1.0);
-  for (const Force& force : setup.forces)
-    causes_.attract = causes_.attract || std::holds_alternative<AttractForce>(force.kind);
+}
+
+Vec2 EnergyWatch::drivenBy(const World& world, std::size_t index) const {
+  const Body& body = world.bodies()[index];
+  if (body.fixed) return Vec2::Zero();
+  return driving_.acceleration(world.bodies(), index, {body.position, body.velocity}, world.time(),
+                               everyone_) -
+         body.acceleration;
 }
 
 /// Its part of what bodies have, by where it came to be and what pulls it there.
@@ -60,10 +71,15 @@ bool EnergyWatch::isSlide(const World& world, const Event& event) const {
 }
 
 std::optional<Warning> EnergyWatch::find(const World& world) {
-  if (!judges_) return std::nullopt;
-  const Snapshot snapshot = snapshotOf(world);
+  Snapshot snapshot = snapshotOf(world);
+  snapshot.forces = keeping_;
+  if (isDriven_ && driving_.couples()) {
+    driving_.findAnchors(snapshot.bodies);
+    everyone_.clear();
+    for (const Body& body : snapshot.bodies) everyone_.push_back({body.position, body.velocity});
+  }
   double change = 0.0; // of those that lived in the last frame, too
-  double moving = 0.0; // kinetic, and of stretched springs
+  double moving = 0.0; // kinetic, of stretched springs, and what driving forces could add to it
   double bound = 0.0;
   double mass = 0.0;
   const Body* fastest = nullptr;
@@ -72,10 +88,12 @@ std::optional<Warning> EnergyWatch::find(const World& world) {
   now_.clear();
   for (const Body& body : snapshot.bodies) { // both are in order of id
     const double motion = kinetic(body);
-    Known known{body.id, motion + potentialEnergy(body, snapshot), 0.0};
+    Known known{.id = body.id, .energy = motion + potentialEnergy(body, snapshot), .position = body.position};
+    if (isDriven_) known.driven = drivenBy(world, now_.size());
     while (before != known_.end() && before->id < body.id) ++before;
     if (before != known_.end() && before->id == body.id) {
-      change += known.energy - before->energy;
+      const Vec2 way = body.position - before->position;
+      change += known.energy - before->energy - 0.5 * body.mass * dot(before->driven + known.driven, way);
       known.bound = before->bound;
       ++stayed;
     } else {
@@ -83,7 +101,7 @@ std::optional<Warning> EnergyWatch::find(const World& world) {
       causes_.euler = causes_.euler || (!body.fixed && body.integrator == Integrator::ExplicitEuler);
     }
     now_.push_back(known);
-    moving += motion;
+    moving += motion + body.mass * dot(known.driven.cwiseAbs(), world.setup().pane);
     for (const Force& force : snapshot.forces)
       if (std::holds_alternative<SpringForce>(force.kind)) moving += potentialEnergy(force, body, snapshot);
     bound += known.bound;
@@ -100,7 +118,7 @@ std::optional<Warning> EnergyWatch::find(const World& world) {
   const double gained = sum_ - lowest_;
   moving_ = std::max(moving_, moving - gained);
   const double usual = moving_ + bound + 0.5 * mass * (kLeastSpeed * kLeastSpeed);
-  if (!(gained > kMost * usual)) return std::nullopt;
+  if (!(gained > (isDriven_ ? kMostDriven : kMost) * usual)) return std::nullopt;
   Warning warning;
   warning.body = fastest->id;
   warning.group = fastest->group;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include "src/sim/event.h"
+#include "src/sim/force_field.h"
 #include "src/sim/probe.h"
 #include "src/sim/warning.h"
 #include "src/sim/world_setup.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -28,11 +30,15 @@ class World;
 ///
 /// The slide's formula makes energy, which is what it is shown for (Response::Slide), so a frame with a
 /// collision by it counts as one in which a body came. A multiplier above 1 at an edge counts as a gain.
+///
 /// Wind and expressions may do any work, and so may an attraction to a body that moves, which feels nothing
-/// of it: where one of these acts, nothing is judged.
+/// of it. Their work on a body from one frame to the next is taken as m·(a + a')/2·(x' − x), with what they
+/// accelerate it by at both ends, and taken out of E; `usual` has their work over the whole pane. That is
+/// rough where the way bends within a frame, so where such a force acts, kMostDriven stands for kMost.
 class EnergyWatch {
 public:
   static constexpr double kMost = 3.0;
+  static constexpr double kMostDriven = 100.0;
 
   EnergyWatch() = default;
   explicit EnergyWatch(const WorldSetup& setup);
@@ -43,13 +49,19 @@ public:
 private:
   struct Known {
     std::uint32_t id = 0;
-    double energy = 0.0; ///< in the last frame
-    double bound = 0.0;  ///< its part of `usual` that stays
+    double energy = 0.0;                                 ///< in the last frame
+    double bound = 0.0;                                  ///< its part of `usual` that stays
+    Vec2 position = Vec2::Zero(), driven = Vec2::Zero(); ///< px, and px/s² by forces that do work
   };
   [[nodiscard]] bool isSlide(const World& world, const Event& event) const;
   static double boundOf(const Body& body, const Snapshot& snapshot, const Vec2& pane);
 
-  bool judges_ = false;
+  [[nodiscard]] Vec2 drivenBy(const World& world, std::size_t index) const;
+
+  std::vector<Force> keeping_; ///< forces that have a potential
+  bool isDriven_ = false;      ///< there are others
+  ForceField driving_;         ///< those
+  std::vector<Motion> everyone_;
   EnergyGrowth causes_;
   std::vector<ContactRule> slides_;
   std::vector<Known> known_, now_; ///< by id, in the last frame and in this one
