@@ -175,6 +175,7 @@ Entries with(const std::string& table, const std::string& key, const std::string
   if (table == "stroke" && (key == "anchor" || key == "proportional")) set(entries, "image", "\"image.png\"");
   if ((table == "fill" || table == "stroke") && key == "proportional") set(entries, "anchor", "[0, 0, 1, 1]");
   if (table == "world" && key == "iterations") set(entries, "contacts", "\"solver\"");
+  if (table == "collide" && key == "except") set(entries, "between", "[\"*\", \"*\"]");
   if (!key.empty()) set(entries, key, value);
   return entries;
 }
@@ -233,6 +234,8 @@ std::string valueOf(const DocumentedKey& key) {
       {"number or list", "[0.5, 1]"},
       {"list of numbers", "[0.5, 1]"},
       {"list of names", "[\"b\"]"},
+      {"list of words", "[\"step\"]"},
+      {"list of groups", "[\"bodies\"]"},
       {"list of [x, y, width, height]", "[[1, 2, 3, 4]]"},
       {"file or list", "\"image.png\""},
       {"integer or list", "[5, 6]"},

@@ -5,13 +5,16 @@
 #include <cmath>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include <fmt/core.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace offstage {
 namespace {
 
+using test::errorsOf;
 using test::sceneOf;
 
 const std::string kBall = "[[body]]\ncenter = [1, 2]\nradius = 3\n";
@@ -118,6 +121,49 @@ TEST(Scene, ABounceSeparatesUnaskedAndASlideOnlyWhenAsked) {
   EXPECT_FALSE(separates("separate = false\n"));
   EXPECT_FALSE(separates("response = \"slide\"\n"));
   EXPECT_TRUE(separates("response = \"slide\"\nseparate = true\n"));
+}
+
+/// The responses of a scene with a body each of the groups "a", "b" and "c", as "ab bounce": its [[collide]]
+/// tables are `rules`.
+std::vector<std::string> responsesOf(const std::string& rules) {
+  std::string text;
+  for (const char* group : {"a", "b", "c"})
+    text += fmt::format("[[body]]\ngroup = \"{}\"\ncenter = [1, 2]\nradius = 3\n", group);
+  const Scene scene = sceneOf(text + rules);
+  std::vector<std::string> responses;
+  for (const ContactRule& rule : scene.world.contacts)
+    responses.push_back(scene.world.groups[rule.groupA] + scene.world.groups[rule.groupB] +
+                        (rule.response == Response::Bounce   ? " bounce"
+                         : rule.response == Response::Report ? " report"
+                                                             : " remove"));
+  return responses;
+}
+
+TEST(Scene, AStarInACollisionStandsForEveryGroup) {
+  using ::testing::ElementsAre;
+  const std::string all = "[[collide]]\nbetween = [\"*\", \"*\"]\n";
+  const std::string ofA = "[[collide]]\nbetween = [\"*\", \"a\"]\nresponse = \"report\"\n";
+  const std::string ab = "[[collide]]\nbetween = [\"b\", \"a\"]\nresponse = \"remove\"\n";
+  EXPECT_THAT(responsesOf(all),
+              ElementsAre("aa bounce", "ab bounce", "ac bounce", "bb bounce", "bc bounce", "cc bounce"));
+  EXPECT_THAT(responsesOf(ofA), ElementsAre("aa report", "ab report", "ac report"));
+  EXPECT_THAT(responsesOf(all + ofA + ab),
+              ElementsAre("aa report", "ab remove", "ac report", "bb bounce", "bc bounce", "cc bounce"))
+      << "what names more groups counts";
+  EXPECT_THAT(responsesOf(ab + all + "except = [\"b\"]\n"),
+              ElementsAre("aa bounce", "ab remove", "ac bounce", "cc bounce"));
+  EXPECT_THAT(responsesOf(ofA + "except = [\"a\", \"c\"]\n"), ElementsAre("ab report"));
+  EXPECT_THAT(responsesOf(ofA + ab + "[[collide]]\nbetween = [\"b\", \"*\"]\n"),
+              ElementsAre("aa report", "ab remove", "ac report", "bb bounce", "bc bounce"));
+}
+
+TEST(Scene, AStarStandsForAtMost256Groups) {
+  std::string text;
+  for (int i = 0; i < 257; ++i)
+    text += fmt::format("[[body]]\ngroup = \"g{}\"\ncenter = [1, 2]\nradius = 3\n", i);
+  EXPECT_THAT(errorsOf(text + "[[collide]]\nbetween = [\"g1\", \"*\"]\n"),
+              ::testing::ElementsAre(
+                  "scene.toml:1029:1: error: \"*\" stands for 257 groups; it may for at most 256"));
 }
 
 TEST(Scene, StepsAreDurationTimesFpsRoundedUp) {

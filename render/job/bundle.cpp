@@ -4,6 +4,7 @@
 #include "render/job/frame_maker.h"
 #include "render/job/interrupt.h"
 #include "render/job/poster.h"
+#include "render/job/rehearsal.h"
 #include "render/job/render_job.h"
 #include "render/job/scene_source.h"
 #include "render/job/schedule.h"
@@ -32,11 +33,13 @@ public:
 
   std::vector<std::string> make() {
     const Viewport viewport = options_.viewport(scene_.size[0], scene_.size[1], scene_.scale);
+    if (options_.strict) rehearseAll(viewport);
     contents_.title = scene_.title;
     contents_.mp4 = add(".mp4");
     contents_.webm = add(".webm");
     contents_.poster = add(".jpg");
     SceneSource first(scene_, viewport);
+    first.watch(scene_, warnings_);
     const Schedule schedule = scheduleOf(first, options_);
     const Picture picture = pictureOf(first);
     contents_.width = picture.width;
@@ -61,6 +64,14 @@ public:
   }
 
 private:
+  /// The trace has every frame, whatever part the videos show.
+  void rehearseAll(const Viewport& viewport) const {
+    WarningLog strict(WarningLog::Mode::Strict);
+    SceneSource source(scene_, viewport);
+    source.watch(scene_, strict);
+    rehearse(source, scene_.clock.steps());
+  }
+
   std::string add(const std::string& ending) {
     contents_.files.push_back(name_ + ending);
     return contents_.files.back();
@@ -72,9 +83,10 @@ private:
     file.commit();
   }
 
-  void renderTo(const std::string& name, RenderOptions options) const {
+  void renderTo(const std::string& name, RenderOptions options) {
     options.out = folder_.temporary() / name;
     SceneSource source(scene_, options.viewport(scene_.size[0], scene_.size[1], scene_.scale));
+    source.watch(scene_, warnings_);
     render(source, options);
   }
 
@@ -90,14 +102,15 @@ private:
     return options;
   }
 
-  void trace(const std::string& name) const {
+  void trace(const std::string& name) {
     TextOutput out(folder_.temporary() / name);
     TraceWriter writer(out.stream(), TraceFormat::Csv, scene_.world.groups);
     World world(scene_.world);
+    WatchedRun run(world, WarningText(scene_), warnings_);
     writer.write(world);
     while (world.frame() < scene_.clock.steps()) {
       throwIfInterrupted();
-      world.step(scene_.clock.tick(world.frame() + 1));
+      run.step(world, scene_.clock.tick(world.frame() + 1));
       writer.write(world);
     }
     out.commit();
@@ -106,6 +119,7 @@ private:
   const Scene& scene_;
   const RenderOptions& options_;
   std::string name_;
+  WarningLog warnings_;
   StagedFolder folder_;
   BundleContents contents_;
 };

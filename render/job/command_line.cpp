@@ -81,6 +81,12 @@ void addSizeOption(CLI::App& app, RenderOptions& options) {
       ->type_name("WxH");
 }
 
+void addStrictOption(CLI::App& app, bool& strict) {
+  app.add_flag("--strict", strict,
+               "make nothing, with status 2, when the run has a warning: a body that is nowhere, energy from "
+               "nowhere, a body that went through another, a step too long for a spring");
+}
+
 void addDrawingOptions(CLI::App& app, RenderOptions& options) {
   addSizeOption(app, options);
   addSceneOptions(app, options);
@@ -134,6 +140,7 @@ void addWorkerOptions(CLI::App& app, RenderOptions& options) {
 void addRenderOptions(CLI::App& app, RenderOptions& options) {
   addOutputOption(app, options);
   addDrawingOptions(app, options);
+  addStrictOption(app, options.strict);
   addJobsOption(app, options);
   app.add_option_function<std::string>(
          "--segment", [&options](const std::string& text) { options.segment = parseSegment(text); },

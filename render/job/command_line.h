@@ -22,11 +22,14 @@ void addSizeOption(CLI::App& app, RenderOptions& options);
 /// Adds the options that say what is drawn: the above, --from --to --quality.
 void addDrawingOptions(CLI::App& app, RenderOptions& options);
 
+/// Adds --strict.
+void addStrictOption(CLI::App& app, bool& strict);
+
 /// Adds --jobs --progress.
 void addWorkerOptions(CLI::App& app, RenderOptions& options);
 
-/// Adds every option of `render`: -o, the above, --poster --jobs --segment --no-resume --progress
-/// --hash.
+/// Adds every option of `render`: -o, the above, --strict --poster --jobs --segment --no-resume
+/// --progress --hash.
 void addRenderOptions(CLI::App& app, RenderOptions& options);
 
 /// Adds the options of `join`: -o, those of addDrawingOptions, --progress --hash.

@@ -4,6 +4,7 @@
 #include "render/compare/golden_store.h"
 #include "render/compare/shell_word.h"
 #include "render/job/interrupt.h"
+#include "render/job/rehearsal.h"
 #include "render/job/scene_source.h"
 #include "render/job/still.h"
 #include "render/output/png.h"
@@ -56,6 +57,20 @@ std::vector<std::string> groupsOf(const Scene& scene) {
   return scene.replay ? scene.replay->trace.groups : scene.world.groups;
 }
 
+/// With Strict: throws what there is to warn of in a scene's run up to its last golden.
+void rehearseGoldens(const std::vector<Scene>& scenes, WarningLog::Mode mode) {
+  if (mode != WarningLog::Mode::Strict) return;
+  for (const Scene& scene : scenes) {
+    WarningLog strict(mode);
+    SceneSource source(scene, Viewport::scaled(scene.size[0], scene.size[1], scene.scale));
+    source.watch(scene, strict);
+    for (const double at : scene.golden->at) {
+      const Moment moment = shotAt(source, at).moment;
+      rehearse(source, moment.frame + (moment.fraction > 0.0 ? 1 : 0));
+    }
+  }
+}
+
 /// One scene's run through all its golden moments.
 class GoldenRun {
 public:
@@ -65,6 +80,7 @@ public:
         source_(scene, Viewport::scaled(scene.size[0], scene.size[1], scene.scale)),
         recorder_(groupsOf(scene), framesOf(scene, source_)),
         recorded_(store.states(name_)) {
+    source_.watch(scene, warnings_);
     if (recorded_) watch_.emplace(*recorded_);
     source_.draw(picture_);
     canvas_ = std::make_unique<Canvas>(picture_.width, picture_.height);
@@ -122,6 +138,7 @@ private:
 
   const Scene& scene_;
   std::string name_;
+  WarningLog warnings_;
   SceneSource source_;
   GoldenRecorder recorder_;
   std::optional<GoldenStates> recorded_;
@@ -168,10 +185,11 @@ void summarize(Report& report) {
 
 } // namespace
 
-Report verifyGoldens(const GoldenFolders& folders) {
+Report verifyGoldens(const GoldenFolders& folders, WarningLog::Mode mode) {
   const GoldenStore store(folders.goldens);
   const std::vector<Scene> scenes = scenesWithGoldens(folders.scenes);
   if (scenes.empty() && store.obsolete({}).empty()) static_cast<void>(requireScenes(folders.scenes));
+  rehearseGoldens(scenes, mode);
   GoldenOutput out(folders.out, folders.goldens);
   Report report;
   report.title = "offstage golden verify " + folders.goldens.string();
@@ -208,8 +226,9 @@ Report verifyGoldens(const GoldenFolders& folders) {
   return report;
 }
 
-GoldenRecording recordGoldens(const GoldenFolders& folders) {
+GoldenRecording recordGoldens(const GoldenFolders& folders, WarningLog::Mode mode) {
   const std::vector<Scene> scenes = requireScenes(folders.scenes);
+  rehearseGoldens(scenes, mode);
   std::error_code failed; // the store says what is wrong with the folder
   std::filesystem::create_directories(folders.goldens, failed);
   GoldenStore store(folders.goldens);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/compare/report.h"
+#include "render/job/warning_log.h"
 
 #include <filesystem>
 #include <string>
@@ -20,8 +21,9 @@ struct GoldenFolders {
 
 /// Draws every golden moment of every scene and holds it to its golden. What is not the same stays in the
 /// `out` folder with a report. Throws Error(BadInput) when a scene or golden cannot be read, or no scene has
-/// a [golden].
-Report verifyGoldens(const GoldenFolders& folders);
+/// a [golden]; with Strict also when a scene's run has a warning, before anything is written. Warnings are
+/// told once a scene.
+Report verifyGoldens(const GoldenFolders& folders, WarningLog::Mode mode = WarningLog::Mode::Tell);
 
 /// What a recording did, by name, in order.
 struct GoldenRecording {
@@ -32,6 +34,6 @@ struct GoldenRecording {
 
 /// Draws every golden moment and writes those that have no golden yet, into a folder that is made if need be.
 /// Throws as verifyGoldens().
-GoldenRecording recordGoldens(const GoldenFolders& folders);
+GoldenRecording recordGoldens(const GoldenFolders& folders, WarningLog::Mode mode = WarningLog::Mode::Tell);
 
 } // namespace offstage

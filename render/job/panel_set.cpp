@@ -102,6 +102,14 @@ void PanelSet::drawCaptions(Picture& picture) const {
   }
 }
 
+void PanelSet::watch(const Scene& scene, WarningLog& log) {
+  for (std::size_t i = 0; i < worlds_.size(); ++i) {
+    const Panel& panel = scene.panels.panels[i];
+    const std::string number = "number " + std::to_string(i + 1);
+    worlds_[i]->watch(*panel.scene, log, panel.title.empty() ? number : panel.title);
+  }
+}
+
 void PanelSet::stepTo(double time) {
   for (const auto& world : worlds_) {
     const Clock& clock = world->clock();

@@ -13,6 +13,7 @@
 namespace offstage {
 
 class SceneSource;
+class WarningLog;
 
 /// The worlds of a scene with panels, in step.
 class PanelSet {
@@ -23,6 +24,9 @@ public:
   PanelSet(const PanelSet&) = delete;
   PanelSet& operator=(const PanelSet&) = delete;
 
+  /// What is wrong with the run of a world goes to `log`: SceneSource::watch(). `scene` is that of the
+  /// constructor.
+  void watch(const Scene& scene, WarningLog& log);
   /// Each world goes on to its last frame that is due at `time` (s).
   void stepTo(double time);
   /// Keeps the present bodies to be drawn, too: SceneSource::keepMoment().

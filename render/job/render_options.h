@@ -40,6 +40,7 @@ struct RenderOptions {
   std::optional<int> jobs;
   std::optional<Segment> segment; ///< render only this part, and leave its chunks in OUT.parts for join
   bool resume = true;             ///< use the chunks that an interrupted run of the same render has left
+  bool strict = false;            ///< nothing is made of a run that there is a warning about (warning_log.h)
   ProgressMode progress = ProgressMode::Auto;
 
   [[nodiscard]] SceneOverrides sceneOverrides() const { return {fps, dtLog, duration, seed, scale, input}; }

@@ -107,8 +107,20 @@ std::int64_t SceneSource::frame() const {
   return std::visit([](const auto& motion) { return motion.frame(); }, motion_);
 }
 
+void SceneSource::watch(const Scene& scene, WarningLog& log, const std::string& panel) {
+  if (panels_ != nullptr) {
+    panels_->watch(scene, log); // motion_ is not drawn
+  } else if (const auto* world = std::get_if<World>(&motion_)) {
+    watched_.emplace(*world, WarningText(scene, panel), log);
+  }
+}
+
 void SceneSource::step() {
-  std::visit([tick = clock_.tick(frame() + 1)](auto& motion) { motion.step(tick); }, motion_);
+  const Tick tick = clock_.tick(frame() + 1);
+  if (watched_)
+    watched_->step(std::get<World>(motion_), tick);
+  else
+    std::visit([&tick](auto& motion) { motion.step(tick); }, motion_);
   if (panels_ != nullptr) panels_->stepTo(clock_.time(frame()));
   note();
 }

@@ -9,6 +9,7 @@
 #include "render/draw/title_card.h"
 #include "render/job/panel_set.h"
 #include "render/job/source.h"
+#include "render/job/warning_log.h"
 #include "src/scene/scene.h"
 #include "src/sim/probe.h"
 #include "src/sim/world.h"
@@ -29,6 +30,10 @@ public:
   /// Decodes the scene's images and measures its sound files. Throws SceneError or Error for what parsing
   /// could not know.
   SceneSource(const Scene& scene, const Viewport& viewport);
+
+  /// From here on, frame 0, what is wrong with the run of what is drawn goes to `log`, which outlives this.
+  /// `scene` is that of the constructor; `panel` the title of the panel that it is.
+  void watch(const Scene& scene, WarningLog& log, const std::string& panel = {});
 
   [[nodiscard]] const Clock& clock() const override { return clock_; }
   [[nodiscard]] const std::string& title() const override { return title_; }
@@ -81,7 +86,8 @@ private:
   Clock clock_;
   std::string title_;
   std::variant<World, ReplayMotion> motion_; ///< simulated or replayed
-  Viewport home_;                            ///< without a camera
+  std::optional<WatchedRun> watched_;
+  Viewport home_; ///< without a camera
   Painter painter_;
   OverlayHistory history_;
   OverlayPainter overlays_;

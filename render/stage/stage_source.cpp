@@ -7,6 +7,7 @@
 #include "src/sim/state_hash.h"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -62,6 +63,20 @@ StageSource::StageSource(std::unique_ptr<Exercise> exercise, const RenderOptions
   noteFrame();
 }
 
+void StageSource::watch(WarningLog& log) {
+  log_ = &log;
+  checkShapes();
+}
+
+void StageSource::checkShapes() {
+  if (log_ == nullptr) return;
+  std::optional<Warning> warning = findNotFinite(bodies_);
+  if (!warning) return;
+  warning->frame = stage_.frame();
+  warning->time = stage_.time();
+  std::exchange(log_, nullptr)->report(*warning, WarningText());
+}
+
 void StageSource::step() {
   stage_.now_ = clock_.tick(stage_.frame() + 1);
   stage_.input_.advance(stage_.now_.time);
@@ -92,6 +107,7 @@ void StageSource::noteFrame() {
     if (node.visible) bodies_.push_back(body);
   }
   history_.note(stage_.time(), bodies_, {});
+  checkShapes();
 }
 
 void StageSource::draw(Picture& picture) const {

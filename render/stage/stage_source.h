@@ -6,6 +6,7 @@
 #include "render/draw/text_painter.h"
 #include "render/job/render_options.h"
 #include "render/job/source.h"
+#include "render/job/warning_log.h"
 #include "render/stage/exercise.h"
 
 #include <memory>
@@ -20,6 +21,10 @@ public:
   /// be.
   StageSource(std::unique_ptr<Exercise> exercise, const RenderOptions& options);
 
+  /// From here on shapes that are nowhere (NotFinite) are reported to `log`, which outlives this. All else
+  /// that a scene's run is watched for, an exercise computes by itself.
+  void watch(WarningLog& log);
+
   [[nodiscard]] const Clock& clock() const override { return clock_; }
   [[nodiscard]] const std::string& title() const override { return stage_.settings_.title; }
   [[nodiscard]] std::int64_t frame() const override { return stage_.frame(); }
@@ -33,6 +38,7 @@ private:
   /// Gives every shape whose look is new or has changed its place among the painter's looks.
   void prepareLooks();
   void noteFrame(); ///< to what overlays remember
+  void checkShapes();
   /// Holds every new or changed text against its font.
   void checkTexts();
 
@@ -45,6 +51,7 @@ private:
   OverlayHistory history_;
   OverlayPainter overlays_;
   TextPainter textPainter_;
+  WarningLog* log_ = nullptr; ///< null: nobody watches, or there is nothing more to tell
 };
 
 } // namespace offstage

@@ -25,6 +25,7 @@ void addBundle(CLI::App& app, Action& action) {
       ->required()
       ->type_name("DIR");
   addDrawingOptions(verb, arguments->options);
+  addStrictOption(verb, arguments->options.strict);
   addWorkerOptions(verb, arguments->options);
   verb.callback([arguments, &action] {
     action = [arguments] {

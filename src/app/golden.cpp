@@ -1,4 +1,5 @@
 #include "render/compare/golden_output.h"
+#include "render/job/command_line.h"
 #include "render/job/golden_job.h"
 #include "src/app/commands.h"
 #include "src/sim/error.h"
@@ -21,8 +22,12 @@ struct Arguments {
   std::filesystem::path junit;
   std::vector<std::string> names;
   bool json = false;
+  bool strict = false;
 
   [[nodiscard]] GoldenFolders folders() const { return {goldens, scenes.empty() ? goldens : scenes, out}; }
+  [[nodiscard]] WarningLog::Mode mode() const {
+    return strict ? WarningLog::Mode::Strict : WarningLog::Mode::Tell;
+  }
 };
 
 void addFolder(CLI::App& verb, Arguments& arguments) {
@@ -39,7 +44,7 @@ void addOut(CLI::App& verb, Arguments& arguments) {
 }
 
 int record(const Arguments& arguments) {
-  const GoldenRecording recording = recordGoldens(arguments.folders());
+  const GoldenRecording recording = recordGoldens(arguments.folders(), arguments.mode());
   for (const std::string& name : recording.recorded) fmt::print("recorded {}\n", name);
   for (const std::string& name : recording.unchanged) fmt::print("unchanged {}\n", name);
   for (const std::string& name : recording.differing)
@@ -50,7 +55,7 @@ int record(const Arguments& arguments) {
 }
 
 int verify(const Arguments& arguments) {
-  const Report report = verifyGoldens(arguments.folders());
+  const Report report = verifyGoldens(arguments.folders(), arguments.mode());
   if (!arguments.junit.empty()) writeJunit(arguments.junit, report);
   if (arguments.json) {
     writeJson(std::cout, report);
@@ -81,6 +86,7 @@ void addGolden(CLI::App& app, Action& action) {
       *golden.add_subcommand("record", "Draw the goldens that are not there yet; others stay as they are");
   addFolder(recordVerb, *arguments);
   addScenes(recordVerb, *arguments);
+  addStrictOption(recordVerb, arguments->strict);
   recordVerb.callback([arguments, &action] { action = [arguments] { return record(*arguments); }; });
 
   CLI::App& verifyVerb =
@@ -88,6 +94,7 @@ void addGolden(CLI::App& app, Action& action) {
   addFolder(verifyVerb, *arguments);
   addScenes(verifyVerb, *arguments);
   addOut(verifyVerb, *arguments);
+  addStrictOption(verifyVerb, arguments->strict);
   verifyVerb.add_flag("--json", arguments->json, "print the result as JSON");
   verifyVerb.add_option("--junit", arguments->junit, "write the result as JUnit's XML")->type_name("FILE");
   verifyVerb.callback([arguments, &action] { action = [arguments] { return verify(*arguments); }; });

@@ -1,5 +1,6 @@
 #include "render/job/command_line.h"
 #include "render/job/poster.h"
+#include "render/job/rehearsal.h"
 #include "render/job/render_job.h"
 #include "render/job/scene_source.h"
 #include "src/app/commands.h"
@@ -27,14 +28,23 @@ void addRender(CLI::App& app, Action& action) {
       requireOutput(options);
       const Scene scene = loadScene(arguments->scene, options.sceneOverrides());
       const Viewport viewport = options.viewport(scene.size[0], scene.size[1], scene.scale);
+      if (options.strict) {
+        WarningLog strict(WarningLog::Mode::Strict);
+        SceneSource source(scene, viewport);
+        source.watch(scene, strict);
+        rehearse(source, options, scene.timeline.poster);
+      }
+      WarningLog warnings;
       std::optional<Poster> poster;
       if (!options.poster.empty()) poster.emplace(options.poster);
       if (!options.out.empty() || !options.hashFile.empty()) {
         SceneSource source(scene, viewport);
+        source.watch(scene, warnings);
         printSummary(render(source, options), options);
       }
       if (poster) {
         SceneSource source(scene, viewport); // at frame 0
+        source.watch(scene, warnings);
         poster->write(source, scene.timeline.poster, viewport.scale);
       }
       return static_cast<int>(ExitCode::Done);

@@ -38,6 +38,7 @@ void addStill(CLI::App& app, Action& action) {
       ->type_name("N");
   addSizeOption(verb, arguments->options);
   addSceneOptions(verb, arguments->options);
+  addStrictOption(verb, arguments->options.strict);
   verb.callback([arguments, &action] {
     action = [arguments] {
       if (arguments->out.extension() != ".png")
@@ -46,7 +47,9 @@ void addStill(CLI::App& app, Action& action) {
       const RenderOptions& options = arguments->options;
       const Scene scene = loadScene(arguments->scene, options.sceneOverrides());
       const Viewport viewport = options.viewport(scene.size[0], scene.size[1], scene.scale);
+      WarningLog warnings(options.strict ? WarningLog::Mode::Strict : WarningLog::Mode::Tell);
       SceneSource source(scene, viewport);
+      source.watch(scene, warnings);
       AtomicFile file(arguments->out);
       const Still still = drawStill(source, arguments->at, arguments->strobe);
       const std::vector<std::uint8_t> png =

@@ -2,6 +2,7 @@
 
 #include "render/job/command_line.h"
 #include "render/job/interrupt.h"
+#include "render/job/warning_log.h"
 #include "render/output/text_output.h"
 #include "src/app/commands.h"
 #include "src/scene/scene.h"
@@ -48,6 +49,7 @@ void addTrace(CLI::App& app, Action& action) {
       "print what the run comes to: momentum, energy and its drift, contacts, the largest overlap; the "
       "trace itself is then only written where -o is given");
   addSceneOptions(verb, arguments->options);
+  addStrictOption(verb, arguments->options.strict);
   verb.callback([arguments, &action, &verb] {
     const bool withTrace = !arguments->summary || verb.count("--output") > 0;
     action = [arguments, withTrace] {
@@ -77,6 +79,8 @@ void addTrace(CLI::App& app, Action& action) {
       if (arguments->summary) summary.emplace(scene.world);
 
       World world(scene.world);
+      WarningLog warnings(arguments->options.strict ? WarningLog::Mode::Strict : WarningLog::Mode::Tell);
+      WatchedRun run(world, WarningText(scene), warnings);
       const auto take = [&] {
         if (stateWriter) stateWriter->write(world);
         if (eventWriter) eventWriter->write(world);
@@ -85,7 +89,7 @@ void addTrace(CLI::App& app, Action& action) {
       take();
       while (world.frame() < scene.clock.steps()) {
         throwIfInterrupted();
-        world.step(scene.clock.tick(world.frame() + 1));
+        run.step(world, scene.clock.tick(world.frame() + 1));
         take();
       }
       if (states) states->commit();

@@ -19,6 +19,7 @@ inline constexpr double kMinStep = 1e-6;            ///< s: [clock] dt
 inline constexpr double kMaxStep = 10.0;            ///< s
 inline constexpr std::int64_t kMaxSubsteps = 10000; ///< steps per frame
 inline constexpr std::size_t kMaxForces = 10000;    ///< [[force]] tables of a scene
+inline constexpr std::size_t kMaxGroupsOfAll = 256; ///< that "*" of a [[collide]] may stand for
 inline constexpr std::size_t kMaxExpressionLength = 4096; ///< characters
 inline constexpr std::size_t kMaxTexts = 1000;            ///< [[text]] tables of a scene
 inline constexpr std::size_t kMaxTextBytes = 4096;        ///< of one text or formula

@@ -30,7 +30,9 @@ bool addBodyName(SceneBuilder& builder, const std::string& name, std::uint32_t i
 }
 
 void readCommonProperties(SceneBuilder& builder, const TableReader& reader, Body& body) {
-  body.group = builder.addGroup(reader.string("group"));
+  const std::string group = reader.string("group");
+  if (group == "*") reader.reject("group", "cannot be \"*\", which stands for all groups in [[collide]]");
+  body.group = builder.addGroup(group);
   body.removedOutside = reader.choice("leaving", kLeavings);
   body.restitution = reader.number("restitution", Range::between(0.0, 1.0));
   body.continuous = reader.boolean("continuous");

@@ -1,6 +1,8 @@
 #include "src/scene/scene_builder.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -12,6 +14,17 @@ constexpr Choice<Response> kResponses[] = {{"bounce", Response::Bounce},
                                            {"remove-immediately", Response::RemoveImmediately},
                                            {"slide", Response::Slide},
                                            {"report", Response::Report}};
+
+using GroupRule = SceneBuilder::GroupRule;
+constexpr std::uint32_t kAny = GroupRule::kAny;
+
+/// A group's index, or kAny.
+std::optional<std::uint32_t> readGroup(SceneBuilder& builder, const TomlValue& value,
+                                       const std::string& what) {
+  const auto* name = std::get_if<std::string>(&value.data);
+  if (name != nullptr && *name == "*") return kAny;
+  return builder.findGroup(value, what);
+}
 
 /// The two groups that the rule is for. False when one of them is wrong.
 bool readGroups(SceneBuilder& builder, const TableReader& reader, ContactRule& rule) {
@@ -25,12 +38,35 @@ bool readGroups(SceneBuilder& builder, const TableReader& reader, ContactRule& r
     reportMismatch(*between, what, "an array of 2 group names", builder.errors);
     return false;
   }
-  const auto first = builder.findGroup((*between->array())[0], "value 1 of " + what);
-  const auto second = builder.findGroup((*between->array())[1], "value 2 of " + what);
+  const auto first = readGroup(builder, (*between->array())[0], "value 1 of " + what);
+  const auto second = readGroup(builder, (*between->array())[1], "value 2 of " + what);
   if (!first || !second) return false;
   rule.groupA = *first;
   rule.groupB = *second;
   return true;
+}
+
+/// The groups that "*" is not to stand for.
+std::vector<std::uint32_t> readExceptions(SceneBuilder& builder, const TableReader& reader,
+                                          const ContactRule& rule, bool groupsKnown) {
+  std::vector<std::uint32_t> except;
+  const TomlValue* value = reader.find("except");
+  if (value == nullptr) return except;
+  const std::string what = reader.described("except");
+  if (value->array() == nullptr || value->array()->empty()) {
+    reportMismatch(*value, what, "a list of group names", builder.errors);
+    return except;
+  }
+  if (groupsKnown && rule.groupA != kAny && rule.groupB != kAny)
+    reader.reject("except", "belongs to a 'between' with \"*\"");
+  std::size_t number = 0;
+  for (const TomlValue& element : *value->array()) {
+    const auto group = builder.findGroup(element, fmt::format("value {} of {}", ++number, what));
+    if (group) except.push_back(*group);
+  }
+  std::sort(except.begin(), except.end());
+  except.erase(std::unique(except.begin(), except.end()), except.end());
+  return except;
 }
 
 /// Only a bounce has a restitution, and only a bounce and a slide move anything: the other responses act on
@@ -69,14 +105,17 @@ void parseCollide(SceneBuilder& builder, const TomlValue& table) {
   rule.approachingOnly = reader.boolean("approaching_only");
   rejectWhatTheResponseLacks(reader, rule);
   rejectWhatTheSolverLacks(builder, reader, rule);
+  std::vector<std::uint32_t> except = readExceptions(builder, reader, rule, groupsKnown);
   if (!groupsKnown) return;
 
   const auto pair = std::minmax(rule.groupA, rule.groupB);
-  if (const auto [place, isNew] = builder.contactLines.try_emplace(pair, table.line); !isNew) {
-    reader.reject("between", fmt::format("has a rule already, in line {}", place->second));
+  const auto [place, isNew] = builder.ruleOfGroups.try_emplace(pair, builder.groupRules.size());
+  if (!isNew) {
+    reader.reject("between",
+                  fmt::format("has a rule already, in line {}", builder.groupRules[place->second].line));
     return;
   }
-  builder.scene.world.contacts.push_back(rule);
+  builder.groupRules.push_back({rule, std::move(except), table.line, &table});
 }
 
 } // namespace offstage

@@ -2,10 +2,12 @@
 
 #include "src/scene/limits.h"
 #include "src/scene/parse_body.h"
+#include "src/scene/warning_text.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 namespace offstage {
 namespace {
@@ -30,6 +32,28 @@ void readContactModel(SceneBuilder& builder, const TableReader& reader) {
     if (!builder.substepsGiven) world.substeps = kSolverSubsteps;
   } else if (reader.has("iterations")) {
     reader.reject("iterations", "belongs to contacts = \"solver\"");
+  }
+}
+
+/// The kinds of warnings that the scene is meant to show.
+void readExpected(SceneBuilder& builder, const TableReader& reader) {
+  const TomlValue* value = reader.find("expect");
+  if (value == nullptr) return;
+  const std::string wanted = fmt::format("\"{}\"", fmt::join(warningWords(), "\", \""));
+  if (value->array() == nullptr) {
+    reportMismatch(*value, reader.described("expect"), "a list of " + wanted, builder.errors);
+    return;
+  }
+  const auto words = warningWords();
+  for (const TomlValue& element : *value->array()) {
+    const auto* word = std::get_if<std::string>(&element.data);
+    const auto found = word == nullptr ? words.end() : std::find(words.begin(), words.end(), *word);
+    if (found == words.end()) {
+      reportMismatch(element, "every value of " + reader.described("expect"), "one of " + wanted,
+                     builder.errors);
+    } else {
+      builder.scene.expectedWarnings.push_back(static_cast<std::size_t>(found - words.begin()));
+    }
   }
 }
 
@@ -74,6 +98,7 @@ void parseWorld(SceneBuilder& builder, const TomlValue& table) {
   }
   builder.integrator = reader.choice("integrator", kIntegrators);
   readContactModel(builder, reader);
+  readExpected(builder, reader);
 }
 
 void parseWalls(SceneBuilder& builder, const TomlValue& table) {

@@ -74,6 +74,7 @@ void parseTables(SceneBuilder& builder, const TomlValue& root, const SceneOverri
   parseEach(builder, top, "spawn", parseSpawn);
   parseEach(builder, top, "launch", parseLaunch);
   parseEach(builder, top, "collide", parseCollide);
+  addContacts(builder);
   parseOverlays(builder, top);
   const std::size_t errorsBefore = builder.errors.count();
   parseEach(builder, top, "force", parseForce);

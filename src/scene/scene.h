@@ -13,6 +13,7 @@
 #include "src/sim/world_setup.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -33,15 +34,16 @@ struct Scene {
   double scale = 1.0;                    ///< output pixels per scene pixel
   Clock clock = Clock::fixed(60.0, 600); ///< already cut to the duration
   WorldSetup world;
-  std::vector<Look> looks;                  ///< Body::look is an index into these
-  std::vector<std::string> bodyNames;       ///< by id of WorldSetup::bodies; empty where unnamed
-  std::vector<std::filesystem::path> files; ///< read beside its text: tables of bodies, recorded input
-  Overlays overlays{};                      ///< what is drawn over and under the bodies
-  std::vector<Plot> plots{};                ///< drawn over the bodies, below the texts
-  Panels panels{};                          ///< the worlds that are drawn instead of this one
-  std::shared_ptr<const Replay> replay;     ///< null: the world is simulated; else it is empty
-  std::optional<GoldenMoments> golden;      ///< what `offstage golden` keeps of it
-  Timeline timeline;                        ///< what it says about its video's time
+  std::vector<Look> looks;                   ///< Body::look is an index into these
+  std::vector<std::string> bodyNames;        ///< by id of WorldSetup::bodies; empty where unnamed
+  std::vector<std::filesystem::path> files;  ///< read beside its text: tables of bodies, recorded input
+  Overlays overlays{};                       ///< what is drawn over and under the bodies
+  std::vector<Plot> plots{};                 ///< drawn over the bodies, below the texts
+  Panels panels{};                           ///< the worlds that are drawn instead of this one
+  std::shared_ptr<const Replay> replay;      ///< null: the world is simulated; else it is empty
+  std::optional<GoldenMoments> golden;       ///< what `offstage golden` keeps of it
+  Timeline timeline;                         ///< what it says about its video's time
+  std::vector<std::size_t> expectedWarnings; ///< kinds (Warning::what) that its run is meant to show
   Theme theme = themeOf(ThemeName::None);
   std::vector<TextItem> texts; ///< drawn over the bodies, in this order
 };

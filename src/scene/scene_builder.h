@@ -43,8 +43,17 @@ struct SceneBuilder {
   std::vector<const TomlValue*> bodyTables;
   std::vector<const TomlValue*> spawnTables;
   std::vector<const TomlValue*> launchTables;
-  /// By pair of groups, the smaller index first: line of its rule.
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> contactLines;
+  /// A [[collide]] as it stands in the file. After parseCollide of all, addContacts() makes the rules of it.
+  struct GroupRule {
+    static constexpr std::uint32_t kAny = 0xffffffffU; ///< "*", every group
+    ContactRule rule;                                  ///< either of its groups may be kAny
+    std::vector<std::uint32_t> except;                 ///< that kAny does not stand for
+    std::uint32_t line = 0;
+    const TomlValue* table = nullptr;
+  };
+  std::vector<GroupRule> groupRules;
+  /// By its two groups, the smaller first: index into groupRules.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> ruleOfGroups;
 
   /// The index of a group, which comes into being by its first mention.
   std::uint32_t addGroup(const std::string& name);
@@ -87,6 +96,7 @@ void parseBodies(SceneBuilder& builder, const TomlValue& table);
 void parseSpawn(SceneBuilder& builder, const TomlValue& table);
 void parseLaunch(SceneBuilder& builder, const TomlValue& table);
 void parseCollide(SceneBuilder& builder, const TomlValue& table);
+void addContacts(SceneBuilder& builder); ///< after all [[collide]]
 void parseForce(SceneBuilder& builder, const TomlValue& table);
 void parseGolden(SceneBuilder& builder, const TomlValue& table); ///< after the timeline is known
 void parseText(SceneBuilder& builder, const TomlValue& table);

@@ -70,6 +70,7 @@ constexpr SceneKey kKeys[] = {
     {"world", "integrator", "choice", "", "\"semi-implicit-euler\""},
     {"world", "contacts", "choice", "", "\"lecture\""},
     {"world", "iterations", "integer", "", "1"},
+    {"world", "expect", "list of words", "", "none"},
 
     {"walls", "left", "number", "", "open"},
     {"walls", "right", "number", "", "open"},
@@ -174,6 +175,7 @@ constexpr SceneKey kKeys[] = {
     {"launch", "leaving", "choice", "", "\"remove\""},
 
     {"collide", "between", "[group, group]", "", "required"},
+    {"collide", "except", "list of groups", "", "none"},
     {"collide", "response", "choice", "", "\"bounce\""},
     {"collide", "restitution", "number", "", "1"},
     {"collide", "separate", "boolean", "", "true"},

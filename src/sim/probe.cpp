@@ -146,6 +146,10 @@ double potentialEnergy(const Body& body, const Snapshot& snapshot) {
   return energy;
 }
 
+double potentialEnergy(const Force& force, const Body& body, const Snapshot& snapshot) {
+  return actsOn(force, body) ? potentialOf(force, body, centre(body, body.position), snapshot) : 0.0;
+}
+
 double valueOf(const Probe& probe, const Snapshot& snapshot) {
   return (rawValue(probe, snapshot) - probe.zero) / probe.unit;
 }

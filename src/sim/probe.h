@@ -74,4 +74,7 @@ double valueOf(const Probe& probe, const Snapshot& snapshot);
 /// section 1.1).
 double potentialEnergy(const Body& body, const Snapshot& snapshot);
 
+/// The part of it that one force has; 0 when it does not act on the body.
+double potentialEnergy(const Force& force, const Body& body, const Snapshot& snapshot);
+
 } // namespace offstage

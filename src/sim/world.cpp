@@ -60,7 +60,7 @@ void World::create(Body body, double time) {
   ++nextId_;
 }
 
-void World::step(const Tick& tick) {
+void World::step(const Tick& tick, StepObserver* observer) {
   if (tick.frame != frame_ + 1) {
     throw std::invalid_argument("World::step: frame " + std::to_string(tick.frame) +
                                 " does not follow frame " + std::to_string(frame_));
@@ -70,36 +70,36 @@ void World::step(const Tick& tick) {
   const double dt = setup_.stepping.dt;
   switch (setup_.stepping.form) {
   case Stepping::Form::Variable:
-    advance(tick);
+    advance(tick, observer);
     break;
   case Stepping::Form::Fixed:
-    advance({tick.frame, static_cast<double>(++steps_) * dt, dt});
+    advance({tick.frame, static_cast<double>(++steps_) * dt, dt}, observer);
     break;
   case Stepping::Form::Clamped:
-    while (tick.time - time_ > dt) advance({tick.frame, time_ + dt, dt});
-    advance({tick.frame, tick.time, tick.time - time_});
+    while (tick.time - time_ > dt) advance({tick.frame, time_ + dt, dt}, observer);
+    advance({tick.frame, tick.time, tick.time - time_}, observer);
     break;
   case Stepping::Form::Accumulator:
     // Counted in steps, so that no rounding of an accumulated rest adds up.
     while (static_cast<double>(steps_ + 1) * dt <= tick.time) {
       beforeStep_ = bodies_;
-      advance({tick.frame, static_cast<double>(++steps_) * dt, dt});
+      advance({tick.frame, static_cast<double>(++steps_) * dt, dt}, observer);
     }
     ahead_ = std::clamp((tick.time - time_) / dt, 0.0, 1.0);
     break;
   }
 }
 
-void World::advance(const Tick& tick) {
+void World::advance(const Tick& tick, StepObserver* observer) {
   launchDue(tick);
   spawnDue(Spawner::When::BeforeUpdate, tick, time_);
   if (setup_.contactModel == ContactModel::Solver) {
-    pileStep(tick);
+    pileStep(tick, observer);
   } else {
     const double h = tick.dt / setup_.substeps;
     for (int j = 0; j < setup_.substeps; ++j) {
       const double end = j + 1 == setup_.substeps ? tick.time : time_ + (j + 1) * h;
-      substep(time_ + j * h, h, end, stampOf(tick));
+      substep(time_ + j * h, h, end, stampOf(tick), observer);
     }
   }
   time_ = tick.time;
@@ -140,7 +140,9 @@ void World::spawnDue(Spawner::When when, const Tick& tick, double time) {
   }
 }
 
-void World::substep(double t, double h, double end, const Event& stamp) {
+void World::substep(double t, double h, double end, const Event& stamp, StepObserver* observer) {
+  if (observer != nullptr) observer->beforeMove(bodies_, h);
+  const std::size_t before = events_.size();
   const bool sweeps = swept_.begin(bodies_);
   mover_.begin(bodies_, t, h);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -151,16 +153,20 @@ void World::substep(double t, double h, double end, const Event& stamp) {
     body.velocity = motion.velocity;
     if (!body.continuous) bounceOffWalls(setup_.walls, setup_.pane, body, stamp, events_);
   }
+  if (observer != nullptr) observer->afterMove(bodies_, std::span(events_).subspan(before));
   if (sweeps) sweep(h, stamp);
   removed_.assign(bodies_.size(), 0);
   contacts_.solve(bodies_, removed_, stamp, events_);
   removeGone(stamp);
 }
 
-void World::pileStep(const Tick& tick) {
+void World::pileStep(const Tick& tick, StepObserver* observer) {
+  if (observer != nullptr) observer->beforeMove(bodies_, tick.dt / setup_.substeps);
+  const std::size_t before = events_.size();
   const Event stamp = stampOf(tick);
   const bool sweeps = swept_.begin(bodies_);
   pile_.step(bodies_, mover_, time_, tick.dt, tick.time, stamp, events_);
+  if (observer != nullptr) observer->afterMove(bodies_, std::span(events_).subspan(before));
   if (sweeps) sweep(tick.dt, stamp);
   removed_.assign(bodies_.size(), 0);
   contacts_.solve(bodies_, removed_, stamp, events_);

@@ -7,6 +7,7 @@
 #include "src/sim/mover.h"
 #include "src/sim/pile_solver.h"
 #include "src/sim/random.h"
+#include "src/sim/step_observer.h"
 #include "src/sim/swept_contacts.h"
 #include "src/sim/world_setup.h"
 
@@ -32,8 +33,8 @@ public:
   /// One frame, in the steps that WorldSetup::stepping makes of it: `tick.frame` must be frame() + 1
   /// (std::invalid_argument otherwise). Throws Error(BadInput) when an `Exact` body has got into a state
   /// without a closed form, such as an orbit from which it escapes after a collision; the world is then to be
-  /// given up.
-  void step(const Tick& tick);
+  /// given up. `observer`, if given, sees the steps.
+  void step(const Tick& tick, StepObserver* observer = nullptr);
 
   [[nodiscard]] std::int64_t frame() const { return frame_; }
   /// s of simulated time. After a frame its tick's, but for Stepping::Form::Fixed and Accumulator.
@@ -52,14 +53,14 @@ public:
   [[nodiscard]] std::uint64_t stateHash() const;
 
 private:
-  void advance(const Tick& tick);      ///< one step
+  void advance(const Tick& tick, StepObserver* observer); ///< one step
   void create(Body body, double time); ///< gives the body its id and lets it move from `time` on
   void launchDue(const Tick& tick);
   void spawnDue(Spawner::When when, const Tick& tick, double time);
-  void substep(double t, double h, double end,
-               const Event& stamp);         ///< from t to `end`, by a step of length h
-  void pileStep(const Tick& tick);          ///< all substeps at once, by ContactModel::Solver
-  void sweep(double h, const Event& stamp); ///< what continuous bodies meet on their ways
+  void substep(double t, double h, double end, const Event& stamp,
+               StepObserver* observer);                    ///< from t to `end`, by a step of length h
+  void pileStep(const Tick& tick, StepObserver* observer); ///< all substeps at once, by ContactModel::Solver
+  void sweep(double h, const Event& stamp);                ///< what continuous bodies meet on their ways
   void removeGone(const Event& stamp);
   void removeMarked();
 

@@ -218,6 +218,7 @@ std::string dump(const Scene& scene) {
                   dump(world.pane), dump(world.gravity), world.seed, static_cast<int>(world.stepping.form),
                   world.stepping.dt, world.substeps, static_cast<int>(world.contactModel), world.iterations,
                   fmt::join(world.groups, ","), world.walls.clamp);
+  text += fmt::format(" expect {}", fmt::join(scene.expectedWarnings, ","));
   for (const auto& side : world.walls.restitution) text += side ? fmt::format(" {}", *side) : " open";
   for (const Look& look : scene.looks) text += "\nlook " + dump(look);
   for (const Body& body : world.bodies) text += "\nbody " + scene.bodyNames.at(body.id) + ' ' + dump(body);

@@ -1,0 +1,207 @@
+#include "render/job/rehearsal.h"
+#include "render/job/warning_log.h"
+#include "render/stage/exercise.h"
+#include "render/stage/stage_source.h"
+#include "tests/support/golden_folder.h"
+#include "tests/support/process.h"
+#include "tests/support/temp_dir.h"
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace offstage::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+/// A shot goes through its target in the step to frame 300, in the second chunk of 240 frames.
+constexpr const char* kTunnel = R"(
+duration = 10.0
+[frame]
+size = [96, 48]
+[world]
+gravity = [0, 0]
+[[body]]
+group = "targets"
+center = [48, 24]
+radius = 2
+[[launch]]
+frame = 300
+from = [10, 24]
+toward = [90, 24]
+speed = 4800
+radius = 2
+[[collide]]
+between = ["shots", "targets"]
+)";
+
+/// The same, but nothing to tell: the shot is slow.
+std::string quiet() {
+  std::string text = kTunnel;
+  return text.replace(text.find("4800"), 4, "60");
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+const std::string kSays =
+    "warning: frame 300 (5 s), body 1 of \"shots\": it went through body 0 in one step without touching it: "
+    "80 "
+    "px, where both together are 8 px wide; continuous = true on one of them makes its whole way count, or "
+    "[clock] substeps = 21 shortens the steps [crossing]\n";
+
+class Warned : public ::testing::Test {
+protected:
+  Warned() : file_(dir_.write("shot.toml", kTunnel)) {}
+  ProcessResult run(std::vector<std::string> arguments) const {
+    return offstage(std::move(arguments), {.environment = {}, .directory = dir_.path()});
+  }
+  TempDir dir_;
+  std::filesystem::path file_;
+};
+
+TEST_F(Warned, EveryVerbThatSimulatesSaysItOnceAndGoesOn) {
+  for (const char* jobs : {"0", "1", "3"}) {
+    const ProcessResult render =
+        run({"render", "shot.toml", "-o", "x.mp4", "--poster", "x.png", "--jobs", jobs, "--hash", "h.txt"});
+    EXPECT_EQ(render.status, 0);
+    EXPECT_EQ(render.err, "shot.toml: " + kSays) << jobs;
+  }
+  const ProcessResult raw = run({"render", "shot.toml", "-o", "x.raw"});
+  EXPECT_EQ(raw.err, "shot.toml: " + kSays);
+  const ProcessResult still = run({"still", "shot.toml", "--at", "6", "-o", "s.png"});
+  EXPECT_EQ(still.err, "shot.toml: " + kSays);
+  EXPECT_EQ(run({"still", "shot.toml", "--at", "4.9", "-o", "s.png"}).err, "");
+  const ProcessResult trace = run({"trace", "shot.toml", "-o", "t.csv"});
+  EXPECT_EQ(trace.status, 0);
+  EXPECT_EQ(trace.err, "shot.toml: " + kSays);
+  EXPECT_EQ(count(run({"trace", "shot.toml", "--summary"}).err, "warning"), 1U);
+  const ProcessResult bundle = run({"bundle", "shot.toml", "-o", "b"});
+  EXPECT_EQ(bundle.status, 0) << bundle.err;
+  EXPECT_EQ(count(bundle.err, "warning"), 1U) << bundle.err;
+}
+
+TEST_F(Warned, StrictMakesNothingAndLeavesWhatIsThere) {
+  const std::vector<std::vector<std::string>> commands{
+      {"render", "shot.toml", "-o", "x.mp4", "--strict"},
+      {"render", "shot.toml", "-o", "x.mp4", "--strict", "--jobs", "0"},
+      {"render", "shot.toml", "-o", "x.mp4", "--strict", "--segment", "1/2"},
+      {"render", "shot.toml", "-o", "x.raw", "--strict"},
+      {"render", "shot.toml", "-o", "x%03d.png", "--strict"},
+      {"render", "shot.toml", "--hash", "x.txt", "--strict"},
+      {"render", "shot.toml", "--poster", "x.png", "--to", "1", "--strict"}, // of the whole video's middle
+      {"still", "shot.toml", "--at", "6", "-o", "x.png", "--strict"},
+      {"trace", "shot.toml", "-o", "x.csv", "--events", "x.jsonl", "--strict"},
+      {"bundle", "shot.toml", "-o", "b", "--strict"},
+      {"bundle", "shot.toml", "-o", "b", "--to", "1", "--strict"}};
+  for (const char* name : {"x.mp4", "x.raw", "x000.png", "x.txt", "x.png", "x.csv", "x.jsonl"})
+    dir_.write(name, "mine");
+  std::filesystem::create_directory(dir_ / "b");
+  const std::vector<std::string> before = dir_.names();
+  for (const auto& command : commands) {
+    const ProcessResult result = run(command);
+    EXPECT_EQ(result.status, 2) << command[0] << ' ' << command[3];
+    EXPECT_THAT(result.err, AllOf(StartsWith("shot.toml: error: frame 300 (5 s), body 1 of \"shots\": "),
+                                  EndsWith("[crossing] (--strict)\n")));
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(dir_.names(), before) << command[0] << ' ' << command[3];
+    EXPECT_THAT(dir_.names("b"), IsEmpty());
+  }
+  for (const char* name : {"x.mp4", "x.raw", "x000.png", "x.txt", "x.png", "x.csv", "x.jsonl"})
+    EXPECT_EQ(readFile(dir_ / name), "mine") << name;
+}
+
+TEST_F(Warned, StrictLooksAsFarAsWhatIsMade) {
+  EXPECT_EQ(run({"render", "shot.toml", "-o", "x.mp4", "--to", "4.9", "--strict"}).status, 0);
+  EXPECT_EQ(run({"still", "shot.toml", "--at", "4.9", "-o", "x.png", "--strict"}).status, 0);
+  // The poster shows the middle of the whole video, at 5 s.
+  EXPECT_EQ(
+      run({"render", "shot.toml", "-o", "x.mp4", "--to", "4.9", "--poster", "x.png", "--strict"}).status, 2);
+  dir_.write("shot.toml", quiet());
+  const ProcessResult clean = run({"render", "shot.toml", "-o", "y.mp4", "--strict"});
+  EXPECT_EQ(clean.status, 0);
+  EXPECT_EQ(clean.err, "");
+}
+
+TEST_F(Warned, WhatASceneIsMeantToShowIsNoWarning) {
+  std::string text = kTunnel;
+  dir_.write("shot.toml", text.replace(text.find("gravity"), 0, "expect = [\"crossing\"]\n"));
+  const ProcessResult trace = run({"trace", "shot.toml", "-o", "t.csv", "--strict"});
+  EXPECT_EQ(trace.status, 0);
+  EXPECT_EQ(trace.err, "");
+}
+
+TEST_F(Warned, APanelIsNamedAndTheSceneItselfIsNotWatched) {
+  dir_.write("shot.toml", quiet() +
+                              "[[panel]]\ntitle = \"slow\"\n[[panel]]\ntitle = \"fast\"\n[[panel.launch]]\n"
+                              "frame = 300\nfrom = [10, 24]\ntoward = [90, 24]\nspeed = 4800\nradius = 2\n");
+  const ProcessResult still = run({"still", "shot.toml", "--at", "6", "-o", "s.png"});
+  EXPECT_THAT(still.err, StartsWith("shot.toml: warning: panel \"fast\", frame 300 (5 s), body 1"));
+  EXPECT_EQ(count(still.err, "warning"), 1U);
+  EXPECT_EQ(run({"trace", "shot.toml", "-o", "t.csv"}).err, "")
+      << "a trace is of the scene without its panels";
+}
+
+TEST_F(Warned, GoldensOfAStrictRunAreNotTouched) {
+  const TempDir goldens;
+  dir_.write("shot.toml", std::string(kTunnel) + "[golden]\nat = [1, 6]\n");
+  dir_.write("calm.toml", quiet() + "[golden]\nat = [1]\n");
+  const std::string store = (goldens / "store").string();
+  const ProcessResult strict = run({"golden", "record", store, "--scenes", ".", "--strict"});
+  EXPECT_EQ(strict.status, 2);
+  EXPECT_THAT(strict.err, HasSubstr("shot.toml: error: frame 300"));
+  EXPECT_FALSE(std::filesystem::exists(store));
+  const ProcessResult told = run({"golden", "record", store, "--scenes", "."});
+  EXPECT_EQ(told.status, 0);
+  EXPECT_EQ(count(told.err, "warning"), 1U);
+  const ProcessResult verified = run({"golden", "verify", store, "--scenes", ".", "--strict"});
+  EXPECT_EQ(verified.status, 2);
+  EXPECT_THAT(dir_.names(), ElementsAre("calm.toml", "shot.toml"));
+}
+
+struct Lost : Exercise {
+  Circle ball{10.0, 10.0, 5.0};
+  void start(Stage& stage) override { stage.add(ball); }
+  void frame(Stage& stage, double) override { ball.setCenterX(stage.frame() < 3 ? 20.0 : std::nan("")); }
+};
+
+TEST(Warnings, OfAnExerciseInCppThatLosesAShape) {
+  WarningLog strict(WarningLog::Mode::Strict);
+  StageSource source(std::make_unique<Lost>(), {});
+  source.watch(strict);
+  EXPECT_NO_THROW(rehearse(source, 2));
+  try {
+    rehearse(source, 3);
+    FAIL() << "nothing was said";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::BadInput);
+    EXPECT_THAT(error.what(),
+                StartsWith("offstage: error: frame 3 (0.05 s), body 0: its position is (nan, 10)"));
+  }
+}
+
+TEST(Warnings, OfAnExerciseAreTheProgramsExitStatus) {
+  const TempDir dir;
+  const std::string out = dir / "x.mp4";
+  const std::vector<const char*> arguments{"lost", "-o", out.c_str(), "--duration", "0.1", "--strict"};
+  EXPECT_EQ(runExercise([] { return std::make_unique<Lost>(); }, static_cast<int>(arguments.size()),
+                        arguments.data()),
+            2);
+  EXPECT_THAT(dir.names(), IsEmpty());
+}
+
+} // namespace
+} // namespace offstage::test
