@@ -192,7 +192,7 @@ TEST(Overlay, ArrowsAreAsLongAsTheQuantityTimesTheScale) {
 TEST(Overlay, BetweenItsStepsOnlyATrailsHeadChanges) {
   SceneSource source =
       sourceOf("duration = 6\n[world]\ngravity = [0, 90]\n[[body]]\ncenter = [50, 300]\nradius = 8\n"
-               "velocity = [60, -180]\n[[trail]]\nlength = 3.2\n"); // 0.2 s a step: 12 frames
+               "velocity = [60, -180]\n[[trail]]\nlength = 1.6\n"); // six frames a step
   const auto pieces = [&source] {
     Picture picture;
     source.draw(picture);
@@ -210,7 +210,7 @@ TEST(Overlay, BetweenItsStepsOnlyATrailsHeadChanges) {
     auto now = pieces();
     const auto same = static_cast<std::size_t>(
         std::ranges::count_if(before, [&](const auto& piece) { return std::ranges::count(now, piece) > 0; }));
-    if (frame % 12 == 0) {
+    if (frame % 6 == 0) {
       EXPECT_LE(same, 1U) << frame;
     } else {
       EXPECT_GE(same + 3, before.size()) << frame;

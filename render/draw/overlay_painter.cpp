@@ -83,20 +83,24 @@ constexpr double kTrailCosine = 0.9962; ///< of 5°: a pen's path does not show 
 /// Cuts and colours depend on the time alone, not on what was drawn before.
 class TrailSteps {
 public:
-  explicit TrailSteps(double length) : length_(length / kCount) {}
+  explicit TrailSteps(double length)
+      : count_(std::clamp(std::floor(length / kStep), kLeast, kMost)), length_(length / count_) {}
 
   [[nodiscard]] double of(double time) const { return std::floor(time / length_ + kRounding); }
   /// s: where a fading trail begins.
-  [[nodiscard]] double beginOf(double now) const { return (of(now) - kCount + 1.0) * length_; }
+  [[nodiscard]] double beginOf(double now) const { return (of(now) - count_ + 1.0) * length_; }
   /// What is left of the colour in a step: 0 … 1.
-  [[nodiscard]] static double shareIn(double step, double present) {
-    return std::clamp(1.0 - (present - step + 0.5) / kCount, 0.0, 1.0);
+  [[nodiscard]] double shareIn(double step, double present) const {
+    return std::clamp(1.0 - (present - step + 0.5) / count_, 0.0, 1.0);
   }
 
 private:
-  static constexpr double kCount = 16.0;
+  static constexpr double kStep = 0.125; ///< s
+  static constexpr double kLeast = 16.0;
+  static constexpr double kMost = 64.0;
   static constexpr double kRounding = 1e-9; ///< a time on a cut up to rounding is on it
-  double length_;                           ///< s
+  double count_;
+  double length_; ///< s: of a step
 };
 
 Vec2 toPane(const Viewport& viewport, const Vec2& p) {
@@ -209,7 +213,7 @@ void OverlayPainter::trail(Picture& picture, const TrailOverlay& trail, const No
     const auto endStep = [&] {
       if (!points.empty()) points.pop_back(); // the step before ends where this one begins
       path.appendTo(points);
-      colors.resize(points.size() - 1, trail.fade ? faded(color, TrailSteps::shareIn(step, present)) : color);
+      colors.resize(points.size() - 1, trail.fade ? faded(color, steps.shareIn(step, present)) : color);
     };
     const auto add = [&](const OverlayHistory::Place& place) {
       const Vec2 at = toOutput(viewport, place.at);
