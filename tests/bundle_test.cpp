@@ -2,10 +2,12 @@
 #include "render/output/staged_folder.h"
 #include "tests/support/bundle_scene.h"
 #include "tests/support/process.h"
+#include "tests/support/running.h"
 #include "tests/support/temp_dir.h"
 #include "tests/support/test_frames.h"
 #include "tests/support/track_decode.h"
 
+#include <csignal>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -107,6 +109,21 @@ TEST(Bundle, HoldsEverythingThatALecturesPageNeeds) {
   EXPECT_EQ(readFile(dir / "out/lecture.mp4"), before);
 }
 
+TEST(Bundle, AnInterruptedOneLeavesNothingAndPromisesNothing) {
+  const TempDir dir;
+  const std::string scene = dir.write("lecture.toml", kBundleScene).string();
+  Running run({OFFSTAGE_BINARY_DIR "/offstage", "bundle", scene, "-o", (dir / "out").string(), "--jobs", "1",
+               "--scale", "8"});
+  const std::filesystem::path parts =
+      dir / ("." + ("out." + std::to_string(run.id())) + ".partial/lecture.mp4.parts");
+  ASSERT_TRUE(run.waitUntil([&] { return std::filesystem::exists(parts / "000000.chunk"); }));
+  run.signal(SIGINT);
+  EXPECT_EQ(run.finish(), 130);
+  EXPECT_THAT(run.errors(), HasSubstr("interrupted"));
+  EXPECT_THAT(run.errors(), Not(HasSubstr("kept")));
+  EXPECT_THAT(dir.names(), ElementsAre("lecture.toml"));
+}
+
 TEST(Poster, IsDrawnAtItsMomentInItsResolution) {
   const TempDir dir;
   const std::string scene = dir.write("scene.toml", kBundleScene).string();
@@ -124,6 +141,29 @@ TEST(Poster, IsDrawnAtItsMomentInItsResolution) {
             0);
   EXPECT_EQ(readFile(dir / "p.jpg").substr(0, 3), "\xff\xd8\xff");
   EXPECT_TRUE(std::filesystem::exists(dir / "x.mp4"));
+}
+
+/// A program's posters are those of the scene that shows the same: in the middle of the video, in any size.
+TEST(Poster, OfAProgramIsThatOfItsScene) {
+  const TempDir dir;
+  const std::string program = OFFSTAGE_BINARY_DIR "/programs/exercise1_bounce";
+  const auto made = [&](std::vector<std::string> command, const std::string& name) {
+    command.insert(command.end(), {"--poster", (dir / name).string(), "--scale", "1.5"});
+    const ProcessResult result = runProcess(command);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return readFile(dir / name);
+  };
+  const std::vector<std::string> render{OFFSTAGE_BINARY_DIR "/offstage", "render", scene("exercise1_bounce")};
+  EXPECT_EQ(made({program}, "program.png"), made(render, "scene.png"));
+  EXPECT_EQ(made({program}, "program.jpg"), made(render, "scene.jpg"));
+  EXPECT_THAT(dir.names(), ElementsAre("program.jpg", "program.png", "scene.jpg", "scene.png")); // no video
+
+  EXPECT_THAT(made({program, "--duration", "0.1", "-o", (dir / "x.mp4").string()}, "x.png"),
+              Not(readFile(dir / "program.png"))); // the middle is another moment
+  EXPECT_TRUE(std::filesystem::exists(dir / "x.mp4"));
+  const ProcessResult refused = runProcess({program, "--poster", (dir / "p.bmp").string()});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("a poster ends in .png, .jpg or .jpeg"));
 }
 
 } // namespace

@@ -99,6 +99,47 @@ TEST(Panels, OverlaidOnesAreColouredAndDrawnInOnePlace) {
   EXPECT_EQ(picture.primitives[0].center, picture.primitives[1].center);
 }
 
+/// It stands once over the whole picture, in its px; a text of the scene stands in every pane, in theirs.
+TEST(Panels, TextsOverTheWholePictureBelongToNoPanel) {
+  const std::string panels = "[[panel]]\n[[panel]]\n[panels]\ngap = 10\nsize = [860, 240]\n";
+  const std::string whole = "[[panels.text]]\ntext = \"{t:.2f}\"\nat = [430, 120]\nsize = 20\n";
+  const std::string own = "[[text]]\ntext = \"0\"\nat = [100, 50]\nsize = 10\n";
+  const auto masksOf = [](const std::string& text) {
+    const Scene scene = sceneOf(text);
+    SceneSource source(scene, Viewport::scaled(scene.size[0], scene.size[1], 1.0));
+    source.step();
+    Picture picture;
+    source.draw(picture);
+    std::vector<Primitive> masks;
+    for (const Primitive& primitive : picture.primitives)
+      if (primitive.kind == Primitive::Kind::Mask) masks.push_back(primitive);
+    return masks;
+  };
+  const std::vector<Primitive> once = masksOf(kBall + panels + whole);
+  ASSERT_EQ(once.size(), 4U); // 0.02
+  EXPECT_EQ(once.front().clip, -1);
+  EXPECT_NEAR(0.5 * (once.front().low.x() + once.back().high.x()), 430.0, 2.0);
+  EXPECT_NEAR(once.front().low.y(), 112.0, 3.0);
+  const std::vector<Primitive> each = masksOf(kBall + own + panels);
+  ASSERT_EQ(each.size(), 2U);
+  EXPECT_NE(each[0].clip, each[1].clip);
+  EXPECT_EQ(masksOf(kBall + own + panels + whole).size(), 6U);
+  EXPECT_EQ(masksOf(kBall + panels + own).size(), 2U);
+
+  const auto wrong = [&](const std::string& text) {
+    return errorsOf(kBall + panels + "[[panels.text]]\n" + text);
+  };
+  using ::testing::ElementsAre;
+  using ::testing::HasSubstr;
+  EXPECT_THAT(wrong("text = \"{count}\"\nplace = \"top\"\n"),
+              ElementsAre(HasSubstr("17:8: error: a [[panels.text]] "
+                                    "belongs to no panel")));
+  EXPECT_THAT(wrong("text = \"{ball.x}\"\nplace = \"top\"\n"),
+              ElementsAre(HasSubstr("no body and no group \"ball\"")));
+  EXPECT_THAT(wrong("text = \"a\"\nat = \"ball\"\n"), ElementsAre(HasSubstr("unknown body")));
+  EXPECT_THAT(wrong("text = \"a\"\n"), ElementsAre(HasSubstr("needs 'at' or 'place'")));
+}
+
 TEST(Panels, PixelsDoNotDependOnJobs) {
   const TempDir dir;
   writeFile(dir / "scene.toml",

@@ -1,5 +1,6 @@
 #include "render/draw/axis.h"
 #include "render/draw/plot_data.h"
+#include "render/draw/plot_set.h"
 #include "render/draw/simplify.h"
 #include "render/job/scene_source.h"
 #include "src/sim/world.h"
@@ -7,6 +8,7 @@
 #include "tests/support/scene_text.h"
 #include "tests/support/temp_dir.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -151,6 +153,34 @@ TEST(Plot, CurvesGrowToThePresentUnlessWhole) {
   EXPECT_EQ(whole, all);
   EXPECT_LT(half[0].x(), all[0].x() - 200.0);
   EXPECT_EQ(half[0].y(), all[0].y()); // the axes stand still
+}
+
+/// A curve that grows from frame to frame, that of a plot drawn once, and of one that goes back, are the
+/// same.
+TEST(Plot, ACurveDoesNotDependOnTheFramesDrawnBefore) {
+  const Scene scene =
+      sceneOf("duration = 2\n[world]\ngravity = [0, 900]\n[walls]\nall = 0.9\n[[body]]\nname = \"ball\"\n"
+              "center = [100, 200]\nradius = 10\nvelocity = [90, -400]\n[[plot]]\n"
+              "y = [\"ball.vy\", \"ball.y\"]\ny_scale = \"log\"\n"); // gaps where vy < 0
+  const Viewport viewport = Viewport::scaled(640, 480, 1.0);
+  const TextPainter texts(viewport);
+  const auto drawn = [](const PlotSet& plots, std::int64_t frame) {
+    Picture picture;
+    plots.draw(picture, frame);
+    std::vector<std::array<double, 5>> pieces;
+    for (const Primitive& piece : picture.primitives)
+      pieces.push_back(
+          {static_cast<double>(piece.kind), piece.low.x(), piece.low.y(), piece.high.x(), piece.high.y()});
+    return pieces;
+  };
+  const PlotSet growing(scene, viewport, texts);
+  for (std::int64_t frame = 0; frame <= 120; ++frame) {
+    const auto pieces = drawn(growing, frame);
+    if (frame % 20 == 0) {
+      EXPECT_EQ(pieces, drawn(PlotSet(scene, viewport, texts), frame)) << frame;
+    }
+  }
+  EXPECT_EQ(drawn(growing, 50), drawn(PlotSet(scene, viewport, texts), 50));
 }
 
 TEST(Plot, LeavesEveryStateAsItIs) {

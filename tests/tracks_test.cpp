@@ -241,6 +241,29 @@ TEST(Sound, ClicksFollowTheVideosTimeAndTheClosingSpeed) {
   EXPECT_GT(loudest(decodeTracks(dir / "y.mp4")), 1.4F * loudest(tracks)); // (0.15+0.85)/(0.15+0.425)
 }
 
+TEST(Sound, AClickDoesNotDependOnTheSteps) {
+  const TempDir dir;
+  struct Case {
+    const char* clock;
+    double contact; ///< s of the video: the first one
+  };
+  const std::vector<Case> cases{
+      {"fps = 7\n", 1.2},
+      {"fps = 7\nsubsteps = 10\n", 1.2},
+      {"fps = 20\nstep = \"clamped\"\ndt = 0.03\n", 1.2},
+      // A step of 1/60 s a frame: the world is half as fast as the video's 30 frames a second.
+      {"fps = 30\nstep = \"fixed\"\n", 2.4},
+      // Pictures of an accumulator show the state of one step ago.
+      {"fps = 60\nstep = \"accumulator\"\ndt = 0.1\n", 1.3},
+  };
+  for (const Case& made : cases) {
+    const std::string scene =
+        dir.write("scene.toml", std::string(kClickScene) + "[clock]\n" + made.clock).string();
+    ASSERT_EQ(offstage({"render", scene, "-o", (dir / "x.mp4").string()}).status, 0) << made.clock;
+    EXPECT_NEAR(onset(decodeTracks(dir / "x.mp4"), 0.0, 0.03F), made.contact, 0.010) << made.clock;
+  }
+}
+
 TEST(Sound, ASectionLastsAsLongAsItsNarration) {
   const TempDir dir;
   writeWav(dir / "a.wav", tone(440, 2.0, 0.05, 22050), 22050);
@@ -258,6 +281,28 @@ TEST(Sound, ASectionLastsAsLongAsItsNarration) {
   EXPECT_NEAR(static_cast<double>(tracks.sound.size()) / 48000.0, 3.0, 0.025);
   EXPECT_LT(onset(tracks, 0.0, 0.05F), 0.010);
   EXPECT_NEAR(onset(tracks, 2.51, 0.05F), -1.0, 0.0); // silent after b's half second
+}
+
+/// The C library has its mathematics twice, with and without fused multiply-add, and chooses by the
+/// processor; their doubles differ in last bits. The sound's bytes do not.
+TEST(Sound, BytesDoNotDependOnTheProcessorsMathematics) {
+  const TempDir dir;
+  writeWav(dir / "a.wav", tone(440, 1.5, 0.05, 22050), 22050);
+  writeWav(dir / "b.wav", tone(1234.5, 1.0, 0.6, 44100), 44100);
+  const std::string scene =
+      dir.write("scene.toml", std::string(kClickScene) +
+                                  "[[section]]\ntitle = \"A\"\nstart = 0\nnarration = \"a.wav\"\n"
+                                  "[[section]]\ntitle = \"B\"\nstart = 2\nnarration = \"b.wav\"\n")
+          .string();
+  ProcessOptions older;
+  older.environment = {{"GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX512F,-AVX2,-FMA,-FMA4,-AVX,-SSE4_1"}};
+  for (const std::string& ending : kContainers) {
+    const std::string one = (dir / ("one" + ending)).string();
+    const std::string two = (dir / ("two" + ending)).string();
+    ASSERT_EQ(offstage({"render", scene, "-o", one}).status, 0);
+    ASSERT_EQ(offstage({"render", scene, "-o", two}, older).status, 0);
+    EXPECT_EQ(readFile(one), readFile(two)) << ending;
+  }
 }
 
 TEST(Sound, UnreadableNarrationIsALocatedError) {

@@ -2,10 +2,12 @@
 
 #include "render/draw/axis.h"
 #include "render/draw/pen.h"
+#include "render/draw/simplify.h"
 #include "src/scene/palette.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include <fmt/format.h>
@@ -18,13 +20,6 @@ constexpr double kLeastArrow = 1.0;   ///< px: a shorter one is not drawn
 constexpr double kTick = 5.0;         ///< px to either side of a ruler
 constexpr double kLongTick = 9.0;     ///< px: every fifth, and the ends
 constexpr double kMostTicks = 2000.0;
-
-/// A share of 0 … 1 in steps that are not seen. A trail's pieces so change their colour only every few
-/// frames, each at its own time, and most of it need not be drawn again.
-double fadeStep(double share) {
-  constexpr double kSteps = 32.0;
-  return (std::floor(std::clamp(share, 0.0, 1.0) * kSteps) + 0.5) / kSteps;
-}
 
 Rgba8 bytes(const Color& color, double opacity = 1.0) {
   return {color.red, color.green, color.blue, color.alphaByte(opacity)};
@@ -79,20 +74,34 @@ std::optional<Vec2> placeOf(const Anchor& anchor, std::span<const Body> bodies) 
   return middleOf(*body);
 }
 
-constexpr double kPieces = 40.0;       ///< of a trail, about; each of one colour
-constexpr double kLongestPiece = 0.05; ///< s: so long a flight is nearly straight
+constexpr double kTrailTolerance = 0.1; ///< px of the output that a trail may lie beside its places
+constexpr double kTrailCosine = 0.9962; ///< of 5°: a pen's path does not show such a turn (pen_path.cpp)
 
-/// Whether a trail needs this place: the first of every `piece` seconds, and where it turns by more than 2°
-/// in a frame. It depends on the place's neighbours only, so a trail that grows and gets old keeps its
-/// pieces.
-bool isCorner(const std::deque<OverlayHistory::Place>& places, std::size_t i, double piece) {
-  constexpr double kCosine = 0.99939;
-  if (i == 0 || i + 1 >= places.size()) return true;
-  if (std::floor(places[i].time / piece) != std::floor(places[i - 1].time / piece)) return true;
-  const Vec2 one = places[i].at - places[i - 1].at;
-  const Vec2 two = places[i + 1].at - places[i].at;
-  return one.dot(two) < kCosine * length(one) * length(two);
-}
+/// How a trail fades: in steps of a part of its length, too small to be seen. Time is cut at whole multiples
+/// of the step, and what lies between two cuts is of one colour. So all trails of one length fade at the same
+/// moments, and between these only their heads change: hardly anything has to be drawn and encoded again.
+/// Cuts and colours depend on the time alone, not on what was drawn before.
+class TrailSteps {
+public:
+  explicit TrailSteps(double length)
+      : count_(std::clamp(std::floor(length / kStep), kLeast, kMost)), length_(length / count_) {}
+
+  [[nodiscard]] double of(double time) const { return std::floor(time / length_ + kRounding); }
+  /// s: where a fading trail begins.
+  [[nodiscard]] double beginOf(double now) const { return (of(now) - count_ + 1.0) * length_; }
+  /// What is left of the colour in a step: 0 … 1.
+  [[nodiscard]] double shareIn(double step, double present) const {
+    return std::clamp(1.0 - (present - step + 0.5) / count_, 0.0, 1.0);
+  }
+
+private:
+  static constexpr double kStep = 0.125; ///< s
+  static constexpr double kLeast = 16.0;
+  static constexpr double kMost = 64.0;
+  static constexpr double kRounding = 1e-9; ///< a time on a cut up to rounding is on it
+  double count_;
+  double length_; ///< s: of a step
+};
 
 Vec2 toPane(const Viewport& viewport, const Vec2& p) {
   return (p - viewport.offset) / viewport.scale;
@@ -187,38 +196,55 @@ void OverlayPainter::gridLabels(Picture& picture, const GridOverlay& grid, const
 
 void OverlayPainter::trail(Picture& picture, const TrailOverlay& trail, const Now& now) const {
   const Viewport& viewport = now.painter.viewport();
+  const TrailSteps steps(trail.length);
+  const double present = steps.of(now.time);
+  const double begin = trail.fade ? steps.beginOf(now.time) : now.time - trail.length;
   std::vector<Vec2> points;
   std::vector<Rgba8> colors;
+  PathSimplifier path(kTrailTolerance, kTrailCosine); // of the step being gone through
   for (const auto& [id, track] : now.history.tracks()) {
     if (!trail.of.holds(id, track.group)) continue;
     const Rgba8 color = trail.color ? bytes(*trail.color, trail.opacity)
                                     : faded(now.painter.colorOf(track.look), trail.opacity);
-    const double begin = now.time - trail.length;
-    const double piece = std::min(trail.length / kPieces, kLongestPiece);
     points.clear();
     colors.clear();
-    double last = 0.0; // the time of the last point
+    path.clear();
+    double step = 0.0;
+    const auto endStep = [&] {
+      if (!points.empty()) points.pop_back(); // the step before ends where this one begins
+      path.appendTo(points);
+      colors.resize(points.size() - 1, trail.fade ? faded(color, steps.shareIn(step, present)) : color);
+    };
     const auto add = [&](const OverlayHistory::Place& place) {
-      if (!points.empty()) {
-        const double age = now.time - 0.5 * (last + place.time);
-        colors.push_back(trail.fade ? faded(color, fadeStep(1.0 - age / trail.length)) : color);
+      const Vec2 at = toOutput(viewport, place.at);
+      const double own = steps.of(place.time);
+      if (path.empty()) {
+        step = own;
+      } else if (own != step) { // the first place of a step also ends the one before
+        path.add(at);
+        endStep();
+        path.clear();
+        step = own;
       }
-      points.push_back(toOutput(viewport, place.at));
-      last = place.time;
+      path.add(at);
     };
     const auto& places = track.places;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      if (places[i].time >= begin) {
-        if (isCorner(places, i, piece)) add(places[i]);
-        continue;
+    const auto first = std::ranges::lower_bound(places, begin, {}, &OverlayHistory::Place::time);
+    if (first != places.begin()) { // it begins on the way from the place before
+      const OverlayHistory::Place& from = *std::prev(first);
+      const OverlayHistory::Place& to = first != places.end() ? *first : track.head;
+      if (to.time > begin) {
+        const double part = (begin - from.time) / (to.time - from.time);
+        add({begin, from.at + part * (to.at - from.at)});
       }
-      const OverlayHistory::Place& next = i + 1 < places.size() ? places[i + 1] : track.head;
-      if (!(next.time > begin)) continue;
-      const double part = (begin - places[i].time) / (next.time - places[i].time);
-      add({begin, places[i].at + part * (next.at - places[i].at)});
     }
+    for (auto place = first; place != places.end(); ++place) add(*place);
     if (track.head.time > begin) add(track.head);
-    Pen(picture, trail.width * viewport.scale, color).path(points, colors);
+    if (path.empty()) continue;
+    endStep();
+    // Under a living body, and where a trail has faded, a round end is not seen.
+    Pen(picture, trail.width * viewport.scale, color)
+        .path(points, colors, {.roundFirst = !trail.fade, .roundLast = track.head.time < now.time});
   }
 }
 

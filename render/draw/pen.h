@@ -7,6 +7,12 @@
 
 namespace offstage {
 
+/// Which ends of a path are round; the others are cut off at right angles, which costs less to draw.
+struct PathEnds {
+  bool roundFirst = true;
+  bool roundLast = true;
+};
+
 /// Draws lines into a picture. Everything is in output px. What has a coordinate that is not finite, or lies
 /// farther than 32768 px from the picture's corner, is left out.
 class Pen {
@@ -28,9 +34,11 @@ public:
   /// An arrow with its tip at `to`; the head is `head` px long and as wide, and never longer than the arrow.
   /// Drawn as one shape, so that a translucent one is evenly so.
   void arrow(const Vec2& from, const Vec2& to, double head);
-  /// A path with round ends and corners. Also a translucent one is of one colour where its pieces meet; only
-  /// where it crosses itself it shows twice. `colors`: one for each pair of points, or none: the pen's own.
-  void path(std::span<const Vec2> points, std::span<const Rgba8> colors = {});
+  /// A path with round corners. Also a translucent one is of one colour where its pieces meet; only where it
+  /// crosses itself it shows twice. `colors`: one for each pair of points, or none: the pen's own. What is
+  /// drawn of a smooth piece depends on what comes before it, not on what comes after: a path that grows
+  /// keeps it.
+  void path(std::span<const Vec2> points, std::span<const Rgba8> colors = {}, PathEnds ends = {});
 
 private:
   void add(Primitive primitive, Rgba8 color);

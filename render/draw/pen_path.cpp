@@ -146,7 +146,7 @@ std::vector<Segment> segmentsOf(const std::vector<Point>& run) {
 
 } // namespace
 
-void Pen::path(std::span<const Vec2> points, std::span<const Rgba8> colors) {
+void Pen::path(std::span<const Vec2> points, std::span<const Rgba8> colors, PathEnds ends) {
   using Kind = Primitive::Kind;
   const double half = 0.5 * width_;
   const Vec2 none = Vec2::Zero();
@@ -159,26 +159,27 @@ void Pen::path(std::span<const Vec2> points, std::span<const Rgba8> colors) {
     if (segments.empty()) continue;
     const Segment& first = segments.front();
     const Segment& last = segments.back();
-    if (segments.size() == 1) {
-      const Vec2 end = first.at(first.length);
+    const Vec2 end = last.at(last.length);
+    if (segments.size() == 1 && ends.roundFirst && ends.roundLast) {
       add(piece(Kind::Elbow, half, {first.from, none}, end, {end, none}), first.color);
       continue;
     }
-    const double cap = std::min(1.0, 0.5 * first.length);
-    Seam seam{first.at(cap), first.ahead};
-    add(piece(Kind::Elbow, half, {first.from, none}, first.from, seam), first.color);
+    Seam seam{first.from, first.ahead};
+    if (ends.roundFirst) {
+      seam.at = first.at(std::min(1.0, 0.5 * first.length));
+      add(piece(Kind::Elbow, half, {first.from, none}, first.from, seam), first.color);
+    }
     for (std::size_t i = 0; i + 1 < segments.size(); ++i) {
       const Segment& one = segments[i];
       const Segment& two = segments[i + 1];
       const double cosine = one.ahead.dot(two.ahead);
-      const auto strip = [&](const Seam& end) {
-        if (end.at != seam.at) add(piece(Kind::Strip, half, seam, end.at, end), one.color);
+      const auto strip = [&](const Seam& to) {
+        if (to.at != seam.at) add(piece(Kind::Strip, half, seam, to.at, to), one.color);
       };
       if (cosine >= kSmoothCosine) {
-        const Vec2 sum = one.ahead + two.ahead;
-        const Seam end{two.from, sum / length(sum)};
-        strip(end);
-        seam = end;
+        const Seam joint{two.from, one.ahead};
+        strip(joint);
+        seam = joint;
         continue;
       }
       // Two corners share the segment between them; of any other an arm may take nearly all.
@@ -194,10 +195,12 @@ void Pen::path(std::span<const Vec2> points, std::span<const Rgba8> colors) {
       add(piece(Kind::Elbow, half, before, two.from, after), two.color);
       seam = after;
     }
-    const Vec2 end = last.at(last.length);
-    const Seam before{last.at(last.length - std::min(1.0, 0.25 * last.length)), last.ahead};
+    Seam before{end, last.ahead};
+    if (ends.roundLast) {
+      before.at = last.at(last.length - std::min(1.0, 0.25 * last.length));
+      add(piece(Kind::Elbow, half, before, end, {end, none}), last.color);
+    }
     add(piece(Kind::Strip, half, seam, before.at, before), last.color);
-    add(piece(Kind::Elbow, half, before, end, {end, none}), last.color);
   }
 }
 

@@ -1,11 +1,11 @@
 #include "render/draw/plot_painter.h"
 
 #include "render/draw/pen.h"
-#include "render/draw/simplify.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace offstage {
 namespace {
@@ -55,6 +55,7 @@ PlotPainter::PlotPainter(const Plot& plot, std::size_t number, const PlotData& d
   makeAxes();
   layOut();
   drawFrame(still_);
+  grown_.assign(plot_.curves.size(), Grown{.open = PathSimplifier(kTolerance)});
 }
 
 void PlotPainter::makeAxes() {
@@ -178,23 +179,31 @@ void PlotPainter::drawLegend(Picture& picture) const {
   }
 }
 
-void PlotPainter::drawCurve(Picture& picture, std::size_t curve, std::size_t frames,
-                            std::int32_t clip) const {
+void PlotPainter::grow(Grown& grown, std::size_t curve, std::size_t frames) const {
   const std::vector<PlotData::Point>& points = data_.points(number_, curve);
-  Pen pen(picture, plot_.width * viewport_.scale, bytes(plot_.curves[curve].color), clip);
-  PathSimplifier simplifier(kTolerance);
+  const std::size_t end = std::min(frames, points.size());
+  if (end < grown.frames) grown = Grown{.open = PathSimplifier(kTolerance)};
   const double reach = 4.0 * length(inner_.high - inner_.low); // far enough out to be clipped
-  for (std::size_t i = 0; i < std::min(frames, points.size()); ++i) {
-    const Vec2 at = place(points[i]);
+  for (; grown.frames < end; ++grown.frames) {
+    const Vec2 at = place(points[grown.frames]);
     if (std::isfinite(at.x()) && std::isfinite(at.y())) {
-      simplifier.add(
+      grown.open.add(
           at.cwiseMax(inner_.low - Vec2::Constant(reach)).cwiseMin(inner_.high + Vec2::Constant(reach)));
       continue;
     }
-    pen.path(simplifier.path()); // there is a gap
-    simplifier.clear();
+    // There is a gap.
+    if (std::vector<Vec2> run = grown.open.path(); !run.empty()) grown.runs.push_back(std::move(run));
+    grown.open.clear();
   }
-  pen.path(simplifier.path());
+}
+
+void PlotPainter::drawCurve(Picture& picture, std::size_t curve, std::size_t frames,
+                            std::int32_t clip) const {
+  Grown& grown = grown_[curve];
+  grow(grown, curve, frames);
+  Pen pen(picture, plot_.width * viewport_.scale, bytes(plot_.curves[curve].color), clip);
+  for (const std::vector<Vec2>& run : grown.runs) pen.path(run);
+  pen.path(grown.open.path());
 }
 
 void PlotPainter::draw(Picture& picture, std::int64_t frame) const {

@@ -2,9 +2,11 @@
 
 #include "render/draw/axis.h"
 #include "render/draw/plot_data.h"
+#include "render/draw/simplify.h"
 #include "render/draw/text_painter.h"
 #include "src/scene/plot.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -25,11 +27,19 @@ private:
   struct Inner {
     Vec2 low, high; ///< output px: the rectangle between the axes
   };
+  /// A curve's path through the points of its first `frames` frames. From frame to frame it only grows; asked
+  /// for fewer frames it is made anew, to the same path.
+  struct Grown {
+    std::size_t frames = 0;
+    std::vector<std::vector<Vec2>> runs{}; ///< up to the last gap
+    PathSimplifier open;                   ///< from there on
+  };
 
   void makeAxes();
   void layOut();
   void drawFrame(Picture& picture) const;
   void drawLegend(Picture& picture) const;
+  void grow(Grown& grown, std::size_t curve, std::size_t frames) const;
   void drawCurve(Picture& picture, std::size_t curve, std::size_t frames, std::int32_t clip) const;
   [[nodiscard]] Vec2 place(const PlotData::Point& point) const;
   [[nodiscard]] TextLook textLook(NinePosition anchor, double size) const;
@@ -45,7 +55,8 @@ private:
   Axis y_{0.0, 1.0, false};
   std::vector<Axis::Tick> xTicks_, yTicks_;
   Inner inner_{};
-  Picture still_; ///< what is the same in all frames
+  Picture still_;                    ///< what is the same in all frames
+  mutable std::vector<Grown> grown_; ///< by curve
 };
 
 /// Adds all that `part` paints to `picture`.

@@ -29,6 +29,10 @@ void PathSimplifier::narrow(const Vec2& point) {
   if (open || cross(high, high_) > 0.0) high_ = high;
 }
 
+bool PathSimplifier::turns(const Vec2& step) const {
+  return first_.dot(step) < leastCosine_ * length(first_) * length(step);
+}
+
 void PathSimplifier::add(const Vec2& point) {
   if (kept_.empty()) {
     kept_.push_back(point);
@@ -40,19 +44,26 @@ void PathSimplifier::add(const Vec2& point) {
   const bool open = low_ == high_;
   const bool onward = !pending_ || along.dot(point - last_) >= 0.0;
   const bool inside = open || (cross(low_, along) >= 0.0 && cross(along, high_) >= 0.0);
-  if (pending_ && !(onward && inside)) {
+  if (pending_ && (!onward || !inside || turns(point - last_))) {
     kept_.push_back(last_);
     low_ = high_ = Vec2::Zero();
+    pending_ = false;
   }
+  if (!pending_) first_ = point - kept_.back();
   last_ = point;
   pending_ = true;
   narrow(point);
 }
 
 std::vector<Vec2> PathSimplifier::path() const {
-  std::vector<Vec2> path = kept_;
-  if (pending_) path.push_back(last_);
+  std::vector<Vec2> path;
+  appendTo(path);
   return path;
+}
+
+void PathSimplifier::appendTo(std::vector<Vec2>& path) const {
+  path.insert(path.end(), kept_.begin(), kept_.end());
+  if (pending_) path.push_back(last_);
 }
 
 } // namespace offstage

@@ -85,6 +85,7 @@ private:
 
   void renderTo(const std::string& name, RenderOptions options) {
     options.out = folder_.temporary() / name;
+    options.resume = false; // the folder goes with everything in it when one of its files fails
     SceneSource source(scene_, options.viewport(scene_.size[0], scene_.size[1], scene_.scale));
     source.watch(scene_, warnings_);
     render(source, options);

@@ -179,8 +179,9 @@ private:
     }
   }
 
-  /// For the message of an error: what the next run can use.
+  /// For the message of an error: what the next run can use. Nothing when it would start over, too.
   [[nodiscard]] std::string whatIsKept(const Parts& parts) const {
+    if (!options_.resume) return {};
     std::int64_t kept = 0;
     for (std::int64_t chunk = firstChunk_; chunk < endChunk_; ++chunk)
       kept += fs::exists(parts.chunk(chunk)) ? 1 : 0;

@@ -201,11 +201,12 @@ void SceneSource::draw(Picture& picture) const {
 }
 
 void SceneSource::paint(Picture& picture) const {
+  const Snapshot now = snapshot();
   if (panels_ != nullptr) {
     panels_->draw(picture);
+    texts_.draw(picture, now, videoTime(), painter_.viewport());
     return;
   }
-  const Snapshot now = snapshot();
   const OverlayPainter::Now overlaid{now.time, now.bodies, history_, painter_, textPainter_};
   overlays_.paint(picture, OverlayLayer::Behind, overlaid);
   drawBodies(picture);

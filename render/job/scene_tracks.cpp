@@ -4,6 +4,7 @@
 #include "render/output/sound_mix.h"
 #include "render/output/sound_reader.h"
 #include "src/scene/quote.h"
+#include "src/sim/contact.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,22 +44,25 @@ const Body* findBody(std::span<const Body> bodies, std::int64_t id) {
   return found == bodies.end() ? nullptr : &*found;
 }
 
-/// By how much a body reaches over an edge of the pane, px; `at`: its coordinate when it touched.
-double overlapWithEdge(const Event& event, const Body& body, const Vec2& pane) {
-  const int axis = event.kind == EventKind::Left || event.kind == EventKind::Right ? 0 : 1;
-  const bool lower = event.kind == EventKind::Left || event.kind == EventKind::Top;
+/// How two things that touch in a step were before it.
+struct Approach {
+  double gap;   ///< px between them; < 0 where they overlap
+  double speed; ///< px/s at which it shrinks
+};
+
+Approach approachToEdge(EventKind edge, const Body& body, const Vec2& pane) {
+  const int axis = edge == EventKind::Left || edge == EventKind::Right ? 0 : 1;
+  const double at = body.position[axis];
+  const double speed = body.velocity[axis];
   const bool circle = body.shape == Shape::Circle;
-  if (lower) return (circle ? body.radius : 0.0) - event.p;
-  return event.p + (circle ? body.radius : body.size[axis]) - pane[axis];
+  if (edge == EventKind::Left || edge == EventKind::Top) return {at - (circle ? body.radius : 0.0), -speed};
+  return {pane[axis] - at - (circle ? body.radius : body.size[axis]), speed};
 }
 
-/// px: how far apart the two are when they touch; see Event::p.
-double touchDistance(const Body& first, const Body& second) {
-  return first.radius + second.radius; // a rectangle's radius is 0
-}
-
-Vec2 velocityOf(const Body& body) {
-  return body.fixed ? Vec2(Vec2::Zero()) : body.velocity;
+Approach approachOf(const Body& first, const Body& second) {
+  const std::optional<Contact> contact = findContact(first, second, HUGE_VAL);
+  if (!contact) return {0.0, 0.0}; // a coordinate is NaN
+  return {contact->distance - contact->touch, closingSpeed(*contact, first, second)};
 }
 
 /// Captions that events show, while the events come by.
@@ -68,13 +72,14 @@ public:
     for (const EventCaption& caption : timeline.eventCaptions) states_.push_back({&caption, -HUGE_VAL, 0});
   }
 
-  void take(const Event& event) {
+  /// `shown`: s of simulated time, see shownAt().
+  void take(const Event& event, double shown) {
     for (State& state : states_) {
       const EventCaption& caption = *state.caption;
       if (std::ranges::count(caption.kinds, event.kind) == 0) continue;
       if (caption.body && event.first != *caption.body && event.second != *caption.body) continue;
       if (caption.limit && state.shown >= *caption.limit) continue;
-      const double time = film_.videoTime(event.time);
+      const double time = film_.videoTime(shown);
       if (time < state.until || time >= film_.seconds) continue;
       state.until = time + caption.length;
       ++state.shown;
@@ -84,10 +89,10 @@ public:
             fmt::format(
                 "events show more than {} captions: give their [[caption]] a longer 'for' or a 'limit'",
                 kMaxCaptions));
-      Caption& shown = captions_.emplace_back();
-      shown.text = caption.text;
-      shown.from = time;
-      shown.to = state.until;
+      Caption& made = captions_.emplace_back();
+      made.text = caption.text;
+      made.from = time;
+      made.to = state.until;
     }
   }
 
@@ -143,42 +148,45 @@ std::vector<double> narrationLengths(const Timeline& timeline) {
   return lengths;
 }
 
-std::vector<ContactMoment> contactsOf(const World& after, std::span<const Body> before, double dt) {
+std::vector<ContactMoment> contactsOf(const World& after, std::span<const Body> before, double timeBefore) {
   std::vector<ContactMoment> contacts;
   for (const Event& event : after.events()) {
     const Body* first = findBody(before, event.first);
-    const Body* second = findBody(before, event.second);
-    double overlap = 0.0;
+    if (first == nullptr) continue;
+    Approach approach{};
     double speed = 0.0;
     switch (event.kind) {
     case EventKind::Left:
     case EventKind::Right:
     case EventKind::Top:
     case EventKind::Bottom:
-      if (first == nullptr) continue;
-      overlap = overlapWithEdge(event, *first, after.setup().pane);
+      approach = approachToEdge(event.kind, *first, after.setup().pane);
       speed = std::abs(event.q);
       break;
     case EventKind::Collide:
-      if (first == nullptr || second == nullptr) continue;
-      overlap = touchDistance(*first, *second) - event.p;
-      speed = event.q;
-      break;
-    case EventKind::Hit: { // the event does not say how fast
-      if (first == nullptr || second == nullptr) continue;
-      overlap = event.q - event.p;
-      const Vec2 apart = second->position - first->position;
-      const double distance = apart.norm();
-      if (distance > 0.0) speed = (velocityOf(*first) - velocityOf(*second)).dot(apart) / distance;
+    case EventKind::Hit: {
+      const Body* second = findBody(before, event.second);
+      if (second == nullptr) continue;
+      approach = approachOf(*first, *second);
+      speed = event.kind == EventKind::Collide ? event.q : approach.speed; // a hit does not say how fast
       break;
     }
     default:
       continue;
     }
     if (!(speed > 0.0)) continue;
-    contacts.push_back({event.time - std::clamp(overlap / speed, 0.0, dt), speed});
+    const double mean = 0.5 * (std::max(approach.speed, 0.0) + speed);
+    const double passed = std::clamp(approach.gap / mean, 0.0, after.time() - timeBefore);
+    contacts.push_back({timeBefore + passed, speed});
   }
   return contacts;
+}
+
+double shownAt(const World& after, double timeBefore, const Tick& tick, double time) {
+  const Stepping& stepping = after.setup().stepping;
+  if (stepping.form == Stepping::Form::Accumulator) return time + stepping.dt;
+  const double length = after.time() - timeBefore;
+  return length > 0.0 ? tick.time - tick.dt * ((after.time() - time) / length) : tick.time;
 }
 
 VideoTracks sceneTracks(const Timeline& timeline, const Film& film, const World* start, double from,
@@ -196,13 +204,15 @@ VideoTracks sceneTracks(const Timeline& timeline, const Film& film, const World*
       throwIfInterrupted();
       const Tick tick = film.clock.tick(frame);
       if (timeline.clicks) before.assign(world.bodies().begin(), world.bodies().end());
+      const double timeBefore = world.time();
       world.step(tick);
-      for (const Event& event : world.events()) shown.take(event);
+      const auto clockTime = [&](double time) { return shownAt(world, timeBefore, tick, time); };
+      for (const Event& event : world.events()) shown.take(event, clockTime(event.time));
       if (!timeline.clicks) continue;
-      for (const ContactMoment& contact : contactsOf(world, before, tick.dt)) {
+      for (const ContactMoment& contact : contactsOf(world, before, timeBefore)) {
         const double share = contact.speed / timeline.loudestClick;
         if (share >= kInaudible)
-          clicks.push_back({film.videoTime(contact.time) - from, std::min(share, 1.0)});
+          clicks.push_back({film.videoTime(clockTime(contact.time)) - from, std::min(share, 1.0)});
       }
     }
     for (Caption& caption : std::move(shown).captions()) captions.push_back(std::move(caption));

@@ -11,7 +11,7 @@ namespace offstage {
 
 /// Something that can be heard.
 struct ContactMoment {
-  double time = 0.0;  ///< s of simulated time
+  double time = 0.0;  ///< s of the world's time
   double speed = 0.0; ///< px/s at which the two came together
 };
 
@@ -28,8 +28,15 @@ VideoTracks sceneTracks(const Timeline& timeline, const Film& film, const World*
                         double to);
 
 /// When two bodies, or a body and an edge of the pane, came together in the step that led to `after`, and how
-/// fast: events are stamped with the frame that shows them, and the contact itself was before that by the
-/// overlap divided by the closing speed, at most the step's length. `before`: the bodies before the step.
-std::vector<ContactMoment> contactsOf(const World& after, std::span<const Body> before, double dt);
+/// fast. Events are stamped with the frame that shows them, so the moment is worked out from how things were
+/// before the step: the gap between the two divided by the mean of their closing speeds then and at the
+/// contact, which is exact for uniform acceleration, and within the step in any case. It so does not depend
+/// on the number of substeps. `before`: the bodies before the step, at `timeBefore` (s of the world's time).
+std::vector<ContactMoment> contactsOf(const World& after, std::span<const Body> before, double timeBefore);
+
+/// When (s of the clock's time) the pictures show what happened at `time` of the world's own, in the step to
+/// `tick`. Most main loops keep the world's time equal to the clock's. One of fixed steps has its own pace,
+/// and with an accumulator the pictures lag behind by one step (World::shown()).
+double shownAt(const World& after, double timeBefore, const Tick& tick, double time);
 
 } // namespace offstage

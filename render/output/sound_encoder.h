@@ -30,8 +30,9 @@ struct EncodedSound {
 
 /// Encodes all of `sound`, from its beginning, cut or filled with silence to `samples` pairs. FFmpeg's own
 /// arithmetic runs without the processor's special instructions meanwhile, so that the bytes do not depend on
-/// them; what is left is the C library's mathematics, which may differ in a last bit between processors with
-/// and without fused multiply-add. Throws Error(Environment) without the encoder.
+/// them. (The C library's mathematics, which it calls, differ between processors with and without fused
+/// multiply-add only in doubles' last bits, which have not changed a byte: tests/tracks_test.cpp.) Throws
+/// Error(Environment) without the encoder.
 EncodedSound encodeSound(Sound& sound, std::int64_t samples, SoundCodec codec);
 
 /// Makes FFmpeg's libraries use no special instructions of the processor in what is opened while it lives.

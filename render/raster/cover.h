@@ -69,6 +69,8 @@ private:
   /// Of paths and polygons only None is told: they are thin, and seldom hide anything.
   [[nodiscard]] Cover ofPath(const PixelRect& rect) const;
   void setPath(const Primitive& primitive);
+  void setEdges(const Primitive& quad);
+  void addBand(const Vec2& from, const Vec2& to, double across, double past);
 
   Outline outline_ = Outline::Box;
   double x_ = 0.0, y_ = 0.0; ///< px: a circle's centre
@@ -78,11 +80,21 @@ private:
   double hole_ = 0.0;        ///< px²: nearer than this is its hole
   bool holed_ = false;       ///< the box has a hole
   Bounds boxOutside_{}, boxInside_{}, boxRim_{}, boxHole_{};
-  // Of a path or polygon: it lies within reach_ of the path through these points. A quadrilateral lies
-  // inside its corners' edges instead.
-  std::array<Vec2, 4> points_{};
-  std::size_t arms_ = 0; ///< of the path; 0: a quadrilateral
-  double reach_ = 0.0;   ///< px
+  /// A straight band around a line: it reaches `across` px to either side and `past` px past the line's ends.
+  struct Band {
+    Vec2 from, ahead;
+    double length, across, past;
+  };
+  /// A line along an edge of a quadrilateral: outside of it a point has normal·point > offset.
+  struct Edge {
+    Vec2 normal;
+    double offset;
+  };
+  // A path or an arrow lies inside its bands, a quadrilateral inside its edges and boxOutside_.
+  std::array<Band, 2> bands_{};
+  std::size_t bandCount_ = 0;
+  std::array<Edge, 4> edges_{};
+  std::size_t edgeCount_ = 0;
 };
 
 /// True when the primitive hides what is below it wherever it covers a pixel wholly, and looks the same in

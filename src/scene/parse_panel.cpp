@@ -2,6 +2,7 @@
 
 #include "src/scene/limits.h"
 #include "src/scene/quote.h"
+#include "src/scene/scene_builder.h"
 #include "src/scene/table_reader.h"
 #include "src/scene/toml_merge.h"
 
@@ -23,6 +24,25 @@ constexpr Choice<Panels::Layout> kLayouts[] = {{"grid", Panels::Layout::Grid},
 int defaultColumns(std::size_t panels) {
   if (panels <= 3) return static_cast<int>(panels);
   return static_cast<int>(std::ceil(std::sqrt(static_cast<double>(panels)) - 1e-9));
+}
+
+/// [[panels.text]]: they stand over the whole picture and belong to no panel, so they know of no bodies.
+std::vector<TextItem> readTexts(const TableReader& panels, const Scene& scene) {
+  SceneBuilder whole(scene.file);
+  whole.scene.size = scene.size;
+  whole.scene.theme = scene.theme;
+  parseEach(whole, panels, "text", parseText);
+  for (const TextItem& item : whole.scene.texts) {
+    const bool ofBodies = std::ranges::any_of(item.text.pieces, [](const TextTemplate::Piece& piece) {
+      return piece.probe && piece.probe->quantity != Quantity::Time &&
+             piece.probe->quantity != Quantity::Frame;
+    });
+    if (ofBodies)
+      whole.errors.add(item.where.line, item.where.column,
+                       "a [[panels.text]] belongs to no panel, so its values are only t and frame");
+  }
+  whole.errors.throwIfAny();
+  return std::move(whole.scene.texts);
 }
 
 void readLayout(const TomlValue& root, ErrorList& errors, Scene& scene) {
@@ -61,6 +81,13 @@ void readLayout(const TomlValue& root, ErrorList& errors, Scene& scene) {
                "the panels have no room: 'size' in [panels] is too small for their gaps and captions");
   }
   scene.size = {static_cast<int>(size[0]), static_cast<int>(size[1])};
+  scene.texts.clear(); // the scene's own are those of each panel
+  try {
+    scene.texts = readTexts(reader, scene);
+  } catch (const SceneError& problems) {
+    for (const Diagnostic& problem : problems.diagnostics())
+      errors.add(problem.where.line, problem.where.column, problem.message);
+  }
 }
 
 /// The changes that a panel makes: its tables but for what is the panel's own.
@@ -159,7 +186,6 @@ void parsePanels(const TomlValue& root, const SceneOverrides& overrides,
   // All that is drawn is in the panels.
   scene.overlays = {};
   scene.plots.clear();
-  scene.texts.clear();
 }
 
 } // namespace offstage

@@ -333,6 +333,7 @@ constexpr SceneKey kKeys[] = {
     {"panels", "gap", "number", "px", "16"},
     {"panels", "caption", "number", "px", "a twelfth of the height"},
     {"panels", "size", "[width, height]", "px", "of all panes"},
+    {"panels", "text", "tables", "", "none"},
 
     {"replay", "trace", "file", "", "required"},
     {"replay", "start", "number", "s", "the first row's time"},
