@@ -357,7 +357,7 @@ TEST(PileSolver, WorkloadSHasThePinnedStateHash) {
   // The bits of every machine, compiler and optimisation level; tests/parity holds the others to it.
   World world(WorkloadS(400).setup);
   run(world, 300);
-  EXPECT_EQ(world.stateHash(), 0x29d45feb3f09c6b3ULL);
+  EXPECT_EQ(world.stateHash(), 0xcdbe34afafaca738ULL);
 }
 
 TEST(PairGrid, FindsEveryNearPairOnce) {
@@ -377,10 +377,14 @@ TEST(PairGrid, FindsEveryNearPairOnce) {
     PairGrid grid;
     grid.begin(bodies, paired, 0.25, true);
     std::vector<std::uint32_t> slots;
-    for (std::uint32_t i = 0; i < bodies.size(); ++i) slots.push_back(grid.insert(i, bodies[i]));
+    for (std::uint32_t i = 0; i < bodies.size(); ++i) slots.push_back(grid.insert(i));
     grid.end();
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> found;
-    grid.forEachPair([&](std::uint32_t a, std::uint32_t b) { ++found[std::minmax(a, b)]; });
+    grid.forEachRun([&](std::uint32_t slot) { return PairGrid::centreOf(bodies[grid.order()[slot]]); },
+                    [&](std::uint32_t slot, std::uint32_t first, std::uint32_t end) {
+                      for (std::uint32_t other = first; other < end; ++other)
+                        ++found[std::minmax(slot, other)];
+                    });
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
       for (std::uint32_t j = i + 1; j < bodies.size(); ++j) {
         const double reach = 0.125 * std::max(extentOf(bodies[i]), extentOf(bodies[j]));

@@ -21,7 +21,7 @@ void PairGrid::layOutLevels(std::span<const Body> bodies, std::span<const std::u
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const double extent = extentOf(bodies[i]);
     const std::uint32_t level = paired[i] != 0 ? sizes_.levelOf(extent) : 0;
-    level_[i] = paired[i] == 0 ? unbounded + 1 : std::min(level, unbounded);
+    level_[i] = static_cast<std::uint8_t>(paired[i] == 0 ? unbounded + 1 : std::min(level, unbounded));
     if (level_[i] < unbounded) levels_[level].cellsPerPixel = std::max(levels_[level].cellsPerPixel, extent);
   }
   std::uint32_t lists = 0;
@@ -44,15 +44,14 @@ void PairGrid::begin(std::span<const Body> bodies, std::span<const std::uint8_t>
   std::fill(starts_.begin(), starts_.end(), 0U);
   list_.resize(bodies.size());
   order_.resize(bodies.size());
-  places_.resize(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const Place place = placeOf(bodies[i]);
+    const Point centre = centreOf(bodies[i]);
     std::size_t list = unbounded + 1;
-    if (std::isfinite(place.x) && std::isfinite(place.y) && level_[i] <= levels_.size()) {
+    if (std::isfinite(centre.x) && std::isfinite(centre.y) && level_[i] <= levels_.size()) {
       list = unbounded;
       if (level_[i] < levels_.size()) {
         const Level& level = levels_[level_[i]];
-        list = level.firstList + listAt(level, place);
+        list = level.firstList + listAt(level, centre);
       }
     }
     list_[i] = static_cast<std::uint32_t>(list);
