@@ -37,8 +37,8 @@ struct Softness {
 };
 
 /// The contacts of a step in the order in which they are solved. Contacts are divided into colours: within a
-/// colour no body that can move occurs twice, so that two contacts at a time give the bits of one after the
-/// other. A contact takes the first colour that both its bodies have free (greedy edge colouring, in the
+/// colour no body that can move occurs twice, so that several contacts at a time give the bits of one after
+/// the other. A contact takes the first colour that both its bodies have free (greedy edge colouring, in the
 /// order of add()); when there is none, the last, in which contacts do go one after the other.
 class ContactBlocks {
 public:
@@ -47,6 +47,11 @@ public:
     std::uint32_t chunk;
     std::uint32_t index; ///< within the chunk
   };
+
+  /// Whether this processor can go through four contacts at a time (AVX2) rather than two. The bits are the
+  /// same.
+  static bool processorIsWide();
+  explicit ContactBlocks(bool wide = processorIsWide()) : wide_(wide) {}
 
   /// Forgets all contacts. `slots`: bodies that add() may name.
   void begin(std::size_t slots);
@@ -87,7 +92,7 @@ public:
   [[nodiscard]] bool touches(std::uint32_t slot) const { return used_[slot] != 0; }
 
   // Each goes through all contacts once and changes velocities. `states` has one entry more than there are
-  // slots, at the end, for the empty half of a block.
+  // slots, at the end, for the empty lanes of a block.
   void warmStart(std::span<SlotState> states);
   /// Pushes overlaps apart, and lets open gaps close at most within a step of length h.
   void solve(std::span<SlotState> states, double h, const Softness& softness);
@@ -97,21 +102,23 @@ public:
   /// Calls visit(contact) for every contact, with its impulse as it is now.
   template <typename Visit>
   void forEach(Visit&& visit) {
-    forEachBlock([&](const Block& block) {
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        if (block.a[lane] != block.b[lane]) visit(contactOf(block, lane)); // else the empty half
+    forEachChunk([&](const Block* blocks, std::size_t count) {
+      for (std::size_t i = 0; i < count * kLanes; ++i) {
+        const Block& block = blocks[i / kLanes];
+        const std::size_t lane = i % kLanes;
+        if (block.a[lane] != block.b[lane]) visit(contactOf(block, lane)); // else an empty lane
       }
     });
   }
 
 private:
-  static constexpr std::size_t kLanes = 2;
-  static constexpr std::size_t kBlocks = 16; ///< of a chunk
+  static constexpr std::size_t kLanes = 4;
+  static constexpr std::size_t kBlocks = 8; ///< of a chunk
   static constexpr std::size_t kColours = 32;
   static constexpr std::size_t kLast = kColours - 1; ///< the colour of one after the other
   static constexpr std::uint32_t kNone = 0xffffffffU;
 
-  /// Two contacts, value by value.
+  /// Contacts, value by value.
   struct Block {
     std::array<std::uint32_t, kLanes> a, b;
     std::array<double, kLanes> nx, ny, touch, share, impulse;
@@ -126,20 +133,26 @@ private:
     return {block.a[lane],     block.b[lane],     block.nx[lane],     block.ny[lane],
             block.touch[lane], block.share[lane], block.impulse[lane]};
   }
+  /// Calls visit(blocks, their number) for each chunk, colour by colour.
   template <typename Visit>
-  void forEachBlock(Visit&& visit) {
+  void forEachChunk(Visit&& visit) {
     for (const Row& row : rows_) {
-      for (std::uint32_t number = row.first; number != kNone;) {
-        Block* chunk = chunks_[number].data();
-        const std::size_t blocks = number == row.last ? (row.filled + kLanes - 1) / kLanes : kBlocks;
-        for (std::size_t i = 0; i < blocks; ++i) visit(chunk[i]);
-        number = next_[number];
+      for (std::uint32_t number = row.first; number != kNone; number = next_[number]) {
+        visit(chunks_[number].data(), number == row.last ? (row.filled + kLanes - 1) / kLanes : kBlocks);
       }
     }
   }
   void startChunk(Row& row);
   template <bool Pushes>
+  static void sweepByTwo(Block* blocks, std::size_t count, SlotState* states, double perStep,
+                         const Softness& softness);
+  template <bool Pushes>
+  static void sweepByFour(Block* blocks, std::size_t count, SlotState* states, double perStep,
+                          const Softness& softness);
+  template <bool Pushes>
   void sweep(std::span<SlotState> states, double h, const Softness& softness);
+
+  bool wide_;
 
   std::array<Row, kColours> rows_{}; ///< by colour
   /// Blocks of one colour each. They stay where they are, so that growing neither copies nor doubles them.

@@ -35,11 +35,33 @@ void PairGrid::layOutLevels(std::span<const Body> bodies, std::span<const std::u
     lists += level.mask + 1;
   }
   starts_.resize(lists + 3);
+  findColumns(bodies);
+}
+
+void PairGrid::findColumns(std::span<const Body> bodies) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const double x = centreOf(bodies[i]).x;
+    if (level_[i] < levels_.size() && std::isfinite(x)) levels_[level_[i]].note(x);
+  }
+}
+
+/// A row of lists for each row of cells, as wide as the bodies are spread. Where that is too wide for the
+/// lists that there are, an odd part of them (2^32 over the golden ratio; Knuth, The Art of Computer
+/// Programming, volume 3, section 6.4). Bodies that have spread since the step before only share lists with
+/// others.
+void PairGrid::chooseStride(Level& level) {
+  constexpr std::uint32_t kSpread = 2654435769U;
+  const std::uint32_t columns = level.rightmost - level.leftmost;
+  const bool fits = level.leftmost <= level.rightmost && columns < level.mask / 4;
+  level.stride = fits ? columns + 3 : kSpread;
+  level.leftmost = 0xffffffffU;
+  level.rightmost = 0;
 }
 
 void PairGrid::begin(std::span<const Body> bodies, std::span<const std::uint8_t> paired, double margin,
                      bool sizesChanged) {
   if (sizesChanged) layOutLevels(bodies, paired, margin);
+  for (Level& level : levels_) chooseStride(level);
   const std::size_t unbounded = starts_.size() - 3; // behind all lists: the unbounded, then those alone
   std::fill(starts_.begin(), starts_.end(), 0U);
   list_.resize(bodies.size());
@@ -50,7 +72,8 @@ void PairGrid::begin(std::span<const Body> bodies, std::span<const std::uint8_t>
     if (std::isfinite(centre.x) && std::isfinite(centre.y) && level_[i] <= levels_.size()) {
       list = unbounded;
       if (level_[i] < levels_.size()) {
-        const Level& level = levels_[level_[i]];
+        Level& level = levels_[level_[i]];
+        level.note(centre.x);
         list = level.firstList + listAt(level, centre);
       }
     }

@@ -60,13 +60,27 @@ public:
 private:
   struct Level {
     double cellsPerPixel = 1.0;
-    std::uint32_t firstList = 0; ///< into starts_
-    std::uint32_t mask = 0;      ///< number of its lists, a power of 2, minus 1
+    std::uint32_t firstList = 0;                         ///< into starts_
+    std::uint32_t mask = 0;                              ///< number of its lists, a power of 2, minus 1
+    std::uint32_t leftmost = 0xffffffffU, rightmost = 0; ///< cells of its bodies, of the step before
+    std::uint32_t stride = 3;                            ///< lists from a cell to the one below
+
+    void note(double x) { ///< that a body is there
+      const std::uint32_t cell = cellOf(x, cellsPerPixel);
+      leftmost = cell < leftmost ? cell : leftmost;
+      rightmost = cell > rightmost ? cell : rightmost;
+    }
   };
 
-  static std::uint32_t listAt(const Level& level, const Point& point) {
-    return listOf(cellOf(point.x, level.cellsPerPixel), cellOf(point.y, level.cellsPerPixel), level.mask);
+  /// Row after row, so that what lies below is near in memory; any 3 × 3 cells have 9 different lists.
+  static std::uint32_t listOf(const Level& level, std::uint32_t cellX, std::uint32_t cellY) {
+    return (cellX + cellY * level.stride) & level.mask;
   }
+  static std::uint32_t listAt(const Level& level, const Point& point) {
+    return listOf(level, cellOf(point.x, level.cellsPerPixel), cellOf(point.y, level.cellsPerPixel));
+  }
+  void findColumns(std::span<const Body> bodies);
+  static void chooseStride(Level& level);
   void layOutLevels(std::span<const Body> bodies, std::span<const std::uint8_t> paired, double margin);
 
   /// Pairs of one level: each body with those behind it in its own cell, with the cell on its right and with
@@ -77,7 +91,7 @@ private:
     const std::uint32_t* starts = starts_.data() + level.firstList;
     for (std::uint32_t list = 0; list <= level.mask; ++list) {
       const std::uint32_t end = starts[list + 1];
-      const std::uint32_t below = listOf(list, 1, level.mask);
+      const std::uint32_t below = listOf(level, list, 1);
       const bool apart = below == 0 || below == level.mask; // the three lists below are not side by side
       for (std::uint32_t slot = starts[list]; slot < end; ++slot) {
         visit(slot, slot + 1, starts[list < level.mask ? list + 2 : list + 1]);
@@ -103,7 +117,7 @@ private:
       const std::uint32_t middle = listAt(coarse, centreAt(slot));
       for (std::uint32_t row = 0; row < 3; ++row) {
         for (std::uint32_t column = 0; column < 3; ++column) {
-          const std::uint32_t list = listOf(middle + column - 1, row - 1, coarse.mask);
+          const std::uint32_t list = listOf(coarse, middle + column - 1, row - 1);
           visit(slot, starts[list], starts[list + 1]);
         }
       }

@@ -31,11 +31,59 @@ std::uint32_t sideOf(const PileContact& wall) {
 PileContacts::PileContacts(const WorldSetup& setup, const RuleTable& rules)
     : pane_(setup.pane), walls_(setup.walls), rules_(rules) {}
 
+[[gnu::always_inline]] inline void PileContacts::addContact(const Step& step, PileContact& contact,
+                                                            std::uint32_t body, std::uint32_t other,
+                                                            double closing, const Material& material) {
+  const ContactMemory::Entry* before = memory_.find(body, other);
+  if (before != nullptr) contact.impulse = step.warmth * static_cast<double>(before->impulse);
+  const ContactBlocks::Place place = blocks_.add(contact);
+  if (material.friction > 0.0) {
+    const double rubbing =
+        before != nullptr ? step.warmth * static_cast<double>(memory_.rubbing(*before)) : 0.0;
+    friction_.add({place, material.friction, rubbing, body, other});
+  }
+  if (material.counts) {
+    impacts_.add({place, closing, material.restitution, material.p, body, other, before == nullptr});
+  }
+}
+
+[[gnu::always_inline]] inline void PileContacts::addPair(const Step& step, const Meeting& meeting) {
+  const PileSlots& slots = step.slots;
+  const std::uint32_t a = meeting.a;
+  const std::uint32_t b = meeting.b;
+  double share = 0.5;
+  if (!slots.sameWeight()) {
+    const double weight = slots.weight(a) + slots.weight(b);
+    if (!(weight > 0.0)) return; // both fixed
+    share = slots.weight(a) / weight;
+  }
+  const ContactRule* rule =
+      step.onlyRule != nullptr ? step.onlyRule : rules_.find(slots.group(a), slots.group(b));
+  if (rule == nullptr) return;
+  const std::uint32_t i = step.order[a];
+  const std::uint32_t j = step.order[b];
+  Material material{rule->restitution, 0.0,
+                    slots.counts(meeting.closing, a) && slots.counts(meeting.closing, b), meeting.distance};
+  if (!slots.plain()) {
+    material.restitution *= pairOf(step.bodies[i].restitution, step.bodies[j].restitution);
+    material.friction = pairOf(step.bodies[i].friction, step.bodies[j].friction);
+  }
+  PileContact contact{a, b, meeting.nx, meeting.ny, meeting.touch, share, 0.0};
+  addContact(step, contact, std::min(i, j), std::max(i, j), meeting.closing, material);
+}
+
 void PileContacts::find(std::span<const Body> bodies, const PileSlots& slots, double dt, double warmth) {
   blocks_.begin(slots.size() + std::size_t{1});
   friction_.clear();
   impacts_.clear();
-  const Step step{bodies, slots, dt, warmth, slots.states().data(), slots.halves().data()};
+  const Step step{bodies,
+                  slots,
+                  dt,
+                  warmth,
+                  slots.states().data(),
+                  slots.halves().data(),
+                  slots.grid().order().data(),
+                  rules_.groups() == 1 ? rules_.find(0, 0) : nullptr};
   Candidates candidates; // NOLINT(cppcoreguidelines-pro-type-member-init): filled before they are read
   slots.grid().forEachRun(
       [&](std::uint32_t slot) {
@@ -131,27 +179,6 @@ void PileContacts::considerShapes(const Step& step, std::uint32_t a, std::uint32
   addPair(step, {a, b, nx, ny, touch, closing, contact->distance});
 }
 
-inline void PileContacts::addPair(const Step& step, const Meeting& meeting) {
-  const PileSlots& slots = step.slots;
-  const std::uint32_t a = meeting.a;
-  const std::uint32_t b = meeting.b;
-  const double weight = slots.weight(a) + slots.weight(b);
-  if (!(weight > 0.0)) return; // both fixed
-  const ContactRule* rule =
-      rules_.groups() == 1 ? rules_.find(0, 0) : rules_.find(slots.group(a), slots.group(b));
-  if (rule == nullptr) return;
-  const std::uint32_t i = slots.bodyOf(a);
-  const std::uint32_t j = slots.bodyOf(b);
-  Material material{rule->restitution, 0.0,
-                    slots.counts(meeting.closing, a) && slots.counts(meeting.closing, b), meeting.distance};
-  if (!slots.plain()) {
-    material.restitution *= pairOf(step.bodies[i].restitution, step.bodies[j].restitution);
-    material.friction = pairOf(step.bodies[i].friction, step.bodies[j].friction);
-  }
-  PileContact contact{a, b, meeting.nx, meeting.ny, meeting.touch, slots.weight(a) / weight, 0.0};
-  addContact(step, contact, std::min(i, j), std::max(i, j), meeting.closing, material);
-}
-
 void PileContacts::considerWalls(const Step& step, std::uint32_t slot) {
   const PileSlots& slots = step.slots;
   const SlotState& state = step.states[slot];
@@ -182,20 +209,6 @@ void PileContacts::considerWalls(const Step& step, std::uint32_t slot) {
   }
 }
 
-inline void PileContacts::addContact(const Step& step, PileContact& contact, std::uint32_t body,
-                                     std::uint32_t other, double closing, const Material& material) {
-  const ContactMemory::Entry* before = memory_.find(body, other);
-  if (before != nullptr) contact.impulse = step.warmth * static_cast<double>(before->impulse);
-  const ContactBlocks::Place place = blocks_.add(contact);
-  if (material.friction > 0.0) {
-    const double rubbing = before != nullptr ? step.warmth * static_cast<double>(before->rubbing) : 0.0;
-    friction_.add({place, material.friction, rubbing, body, other});
-  }
-  if (material.counts) {
-    impacts_.add({place, closing, material.restitution, material.p, body, other, before == nullptr});
-  }
-}
-
 void PileContacts::warmStart(std::span<SlotState> states) {
   blocks_.warmStart(states);
   friction_.warmStart(blocks_, states);
@@ -221,10 +234,10 @@ void PileContacts::remember(const PileSlots& slots) {
       const auto impulse = static_cast<float>(contact.impulse);
       const std::uint32_t i = slots.bodyOf(contact.a);
       if (contact.b == slots.outside()) {
-        visit(i, ContactMemory::Entry{ContactMemory::kFirstWall + sideOf(contact), impulse, 0.0F});
+        visit(i, ContactMemory::Entry{ContactMemory::kFirstWall + sideOf(contact), impulse});
       } else {
         const std::uint32_t j = slots.bodyOf(contact.b);
-        visit(std::min(i, j), ContactMemory::Entry{std::max(i, j), impulse, 0.0F});
+        visit(std::min(i, j), ContactMemory::Entry{std::max(i, j), impulse});
       }
     });
   });

@@ -56,6 +56,8 @@ private:
     double warmth;
     const SlotState* states;
     const double* halves;
+    const std::uint32_t* order;
+    const ContactRule* onlyRule; ///< null when there are several groups
   };
   /// Pairs of slots that are near each other and wait to be looked at.
   struct Candidates {

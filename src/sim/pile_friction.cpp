@@ -28,8 +28,8 @@ void PileFriction::sweep(const ContactBlocks& blocks, std::span<SlotState> state
 
 void PileFriction::remember(ContactMemory& memory) const {
   for (const Rubbing& rubbing : rubbings_) {
-    if (ContactMemory::Entry* entry = memory.find(rubbing.body, rubbing.other)) {
-      entry->rubbing = static_cast<float>(rubbing.impulse);
+    if (const ContactMemory::Entry* entry = memory.find(rubbing.body, rubbing.other)) {
+      memory.setRubbing(*entry, static_cast<float>(rubbing.impulse));
     }
   }
 }

@@ -23,6 +23,7 @@ void PileSlots::learn(std::span<const Body> bodies) {
   for (const Body& body : bodies) {
     paired_.push_back(rules_.numberOf(body.group) != RuleTable::kNoRule ? 1 : 0);
     plain_ = plain_ && body.restitution == 1.0 && body.friction == 0.0;
+    if (body.fixed) sameWeight_ = false;
     if (body.fixed) continue;
     uniform_ = uniform_ && body.integrator == Integrator::SemiImplicitEuler;
     if (some == nullptr) some = &body;
@@ -43,14 +44,14 @@ void PileSlots::gather(std::span<const Body> bodies, double h, int parts) {
   size_ = static_cast<std::uint32_t>(bodies.size());
   states_.resize(size_ + std::size_t{2});
   halves_.resize(size_ + std::size_t{1});
-  weights_.resize(size_ + std::size_t{1});
+  weights_.resize(sameWeight_ ? 0 : size_);
   gained_.resize(sameGain_ ? std::size_t{1} : size_ + std::size_t{1});
   const bool grouped = rules_.groups() > 1;
   if (grouped) groups_.resize(size_);
-  double weight = 0.0;
+  weight_ = 0.0;
   Vec2 gained = Vec2::Zero();
   if (someMoving_ < size_) {
-    weight = 1.0 / bodies[someMoving_].mass;
+    weight_ = 1.0 / bodies[someMoving_].mass;
     gained = ownAcceleration(bodies[someMoving_], gravity_) * h;
   }
   gained_[0] = gained;
@@ -66,13 +67,12 @@ void PileSlots::gather(std::span<const Body> bodies, double h, int parts) {
       weights_[slot] = 0.0;
     } else {
       states_[slot] = {body.velocity.x(), body.velocity.y(), centre.x, centre.y};
-      weights_[slot] = sameWeight_ ? weight : 1.0 / body.mass;
+      if (!sameWeight_) weights_[slot] = 1.0 / body.mass;
     }
     if (!sameGain_) gained_[slot] = body.fixed ? Vec2::Zero() : Vec2(ownAcceleration(body, gravity_) * h);
   }
   grid_.end();
   states_[size_] = states_[size_ + std::size_t{1}] = {};
-  weights_[size_] = 0.0;
 }
 
 } // namespace offstage

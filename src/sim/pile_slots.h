@@ -39,8 +39,10 @@ public:
   [[nodiscard]] std::span<const SlotState> states() const { return states_; }
   /// px: a circle's radius; of a rectangle infinite, so that whoever asks only of circles looks closer.
   [[nodiscard]] std::span<const double> halves() const { return {halves_.data(), size_}; }
-  /// 1/mass; of what is fixed 0.
-  [[nodiscard]] double weight(std::uint32_t slot) const { return weights_[slot]; }
+  /// 1/mass; of a fixed body 0.
+  [[nodiscard]] double weight(std::uint32_t slot) const { return sameWeight_ ? weight_ : weights_[slot]; }
+  /// All have one mass and none is fixed.
+  [[nodiscard]] bool sameWeight() const { return sameWeight_; }
   /// px/s: what acceleration makes of a velocity in a part. Of what is fixed any.
   [[nodiscard]] const Vec2& gained(std::uint32_t slot) const { return gained_[sameGain_ ? 0 : slot]; }
   [[nodiscard]] Vec2 gainedInStep(std::uint32_t slot) const { return gained(slot) * parts_; }
@@ -71,7 +73,7 @@ private:
   bool uniform_ = true;
   bool plain_ = true;
   bool sameGain_ = true;             ///< all that move accelerate alike, not counting forces
-  bool sameWeight_ = true;           ///< all that move have one mass
+  bool sameWeight_ = true;           ///< all have one mass and none is fixed
   std::uint32_t someMoving_ = 0;     ///< index of one of them
   std::vector<std::uint8_t> paired_; ///< by index; 1: has a rule
 
@@ -81,9 +83,10 @@ private:
   double restingGain_ = 0.0;    ///< what counts() compares with where sameGain_
   std::uint32_t size_ = 0;
   std::vector<SlotState> states_;
-  std::vector<double> halves_; ///< and one more, so that two can be loaded at a time
-  std::vector<double> weights_;
-  std::vector<Vec2> gained_; ///< one where they are all the same
+  std::vector<double> halves_;  ///< and one more, so that two can be loaded at a time
+  double weight_ = 0.0;         ///< where sameWeight_
+  std::vector<double> weights_; ///< by slot, where not
+  std::vector<Vec2> gained_;    ///< one where they are all the same
   std::vector<std::uint32_t> groups_;
 };
 

@@ -14,7 +14,7 @@ namespace {
 /// Catto's soft contact for parts of length h; rates are in 1/h, and pi is written out so that no library
 /// has a say in its bits.
 Softness softness(double h) {
-  constexpr double kDampingRatio = 10.0;
+  constexpr double kDampingRatio = 5.0;
   constexpr double kOmega = 2.0 * 3.14159265358979323846 * 0.25; // times h: a quarter of the parts' rate
   constexpr double kA1 = 2.0 * kDampingRatio + kOmega;
   constexpr double kA2 = kOmega * kA1;
@@ -54,10 +54,15 @@ void PileSolver::step(std::span<Body> bodies, Mover& mover, double t, double dt,
   contacts_.find(bodies, slots_, dt, lastPart_ > 0.0 ? std::min(h / lastPart_, 1.0) : 0.0);
   lastPart_ = h;
   const bool uniform = slots_.uniform();
-  active_.clear();
-  for (std::uint32_t slot = 0; slot < slots_.size(); ++slot) {
-    if (slots_.weight(slot) > 0.0 && (!uniform || contacts_.touches(slot))) active_.push_back(slot);
+  active_.resize(slots_.size() + std::size_t{1});
+  std::size_t active = 0;
+  for (std::uint32_t slot = 0; slot < slots_.size();
+       ++slot) { // without a branch: who touches cannot be foretold
+    active_[active] = slot;
+    const bool moves = slots_.weight(slot) > 0.0;
+    active += static_cast<std::size_t>(moves & (!uniform | contacts_.touches(slot)));
   }
+  active_.resize(active);
   free_.resize(active_.size());
   if (!uniform) motions_.resize(slots_.size());
 

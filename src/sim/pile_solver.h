@@ -28,7 +28,7 @@ namespace offstage {
 ///
 /// and at the end pairs that met with a closing speed get their restitution's share of it back, and who is
 /// beyond a wall is put onto it. Source: E. Catto, "Solver2D" (2024, box2d.org), where this order is called
-/// "soft step"; the spring is overdamped (damping ratio 10) and its frequency is a quarter of the parts'
+/// "soft step"; the spring is overdamped (damping ratio 5) and its frequency is a quarter of the parts'
 /// rate, so that it is stable at any h.
 ///
 /// Contacts are solved in the order in which the grid finds them, by colour (contact_blocks.h); every
