@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -8,18 +10,18 @@
 
 namespace offstage {
 
-/// The part of a body's state that contacts change, by slot.
+/// The part of a body's state that changes within a step, by slot.
 struct SlotState {
   double vx = 0.0, vy = 0.0; ///< px/s
-  double dx = 0.0, dy = 0.0; ///< px: how far it has moved in this step
+  double x = 0.0, y = 0.0;   ///< px: of the centre
 };
 
 /// Two bodies in touch, or about to be. Impulses are measured by the change of the normal velocity that they
 /// make, px/s, so that masses enter only by how the two share it.
 struct PileContact {
   std::uint32_t a = 0, b = 0; ///< slots
-  double nx = 1.0, ny = 0.0;  ///< unit normal from a to b
-  double gap = 0.0;           ///< px, at the step's start; negative: overlap
+  double nx = 1.0, ny = 0.0;  ///< unit normal from a to b; stays as it is during the step
+  double touch = 0.0;         ///< px: how far the centres are apart along the normal when they just touch
   double share =
       0.5; ///< of a velocity change that a takes, wa/(wa + wb) with w = 1/mass (fixed: 0); b takes the rest
   double impulse = 0.0; ///< px/s, ≥ 0: to start from
@@ -35,29 +37,63 @@ struct Softness {
 };
 
 /// The contacts of a step in the order in which they are solved. Contacts are divided into colours: within a
-/// colour no body that can move occurs twice, so that two contacts at a time give the bits of one after the
-/// other. A contact takes the first colour that both its bodies have free (greedy edge colouring, in the
+/// colour no body that can move occurs twice, so that several contacts at a time give the bits of one after
+/// the other. A contact takes the first colour that both its bodies have free (greedy edge colouring, in the
 /// order of add()); when there is none, the last, in which contacts do go one after the other.
 class ContactBlocks {
 public:
   /// Names a contact until the next begin().
   struct Place {
-    std::uint32_t colour;
-    std::uint32_t index;
+    std::uint32_t chunk;
+    std::uint32_t index; ///< within the chunk
   };
+
+  /// Whether this processor can go through four contacts at a time (AVX2) rather than two. The bits are the
+  /// same.
+  static bool processorIsWide();
+  explicit ContactBlocks(bool wide = processorIsWide()) : wide_(wide) {}
 
   /// Forgets all contacts. `slots`: bodies that add() may name.
   void begin(std::size_t slots);
-  Place add(const PileContact& contact);
+  Place add(const PileContact& contact) {
+    const std::uint32_t taken = used_[contact.a] | used_[contact.b];
+    const auto colour = std::min<std::size_t>(static_cast<std::size_t>(std::countr_one(taken)), kLast);
+    const std::uint32_t bit = 1U << colour;
+    // A fixed body takes no part of a velocity change, so it may occur any number of times.
+    if (contact.share > 0.0) used_[contact.a] |= bit;
+    if (contact.share < 1.0) used_[contact.b] |= bit;
 
-  [[nodiscard]] double impulse(Place place) const;
-  void setImpulse(Place place, double impulse);
+    Row& row = rows_[colour];
+    if (row.filled == kLanes * kBlocks) startChunk(row);
+    const Place place{row.last, row.filled};
+    const std::size_t lane = row.filled % kLanes;
+    Block& block = chunks_[row.last][row.filled / kLanes];
+    row.filled += colour == kLast ? std::uint32_t{kLanes} : 1U;
+    block.a[lane] = contact.a;
+    block.b[lane] = contact.b;
+    block.nx[lane] = contact.nx;
+    block.ny[lane] = contact.ny;
+    block.touch[lane] = contact.touch;
+    block.share[lane] = contact.share;
+    block.impulse[lane] = contact.impulse;
+    return place;
+  }
+
+  [[nodiscard]] double impulse(Place place) const {
+    return chunks_[place.chunk][place.index / kLanes].impulse[place.index % kLanes];
+  }
+  void setImpulse(Place place, double impulse) {
+    chunks_[place.chunk][place.index / kLanes].impulse[place.index % kLanes] = impulse;
+  }
+  [[nodiscard]] PileContact contact(Place place) const {
+    return contactOf(chunks_[place.chunk][place.index / kLanes], place.index % kLanes);
+  }
   /// Whether a slot that can move has a contact.
   [[nodiscard]] bool touches(std::uint32_t slot) const { return used_[slot] != 0; }
 
   // Each goes through all contacts once and changes velocities. `states` has one entry more than there are
-  // slots, at the end, for the empty half of a block.
-  void warmStart(std::span<SlotState> states) const;
+  // slots, at the end, for the empty lanes of a block.
+  void warmStart(std::span<SlotState> states);
   /// Pushes overlaps apart, and lets open gaps close at most within a step of length h.
   void solve(std::span<SlotState> states, double h, const Softness& softness);
   /// The same without pushing: takes back the speed that solve() used to push.
@@ -65,34 +101,66 @@ public:
 
   /// Calls visit(contact) for every contact, with its impulse as it is now.
   template <typename Visit>
-  void forEach(Visit&& visit) const {
-    for (std::size_t colour = 0; colour < kColours; ++colour) {
-      for (const Block& block : blocks_[colour]) {
-        for (std::size_t lane = 0; lane < kLanes; ++lane) {
-          if (block.a[lane] == block.b[lane]) continue; // the empty half
-          visit(PileContact{block.a[lane], block.b[lane], block.nx[lane], block.ny[lane], block.gap[lane],
-                            block.share[lane], block.impulse[lane]});
-        }
+  void forEach(Visit&& visit) {
+    forEachChunk([&](const Block* blocks, std::size_t count) {
+      for (std::size_t i = 0; i < count * kLanes; ++i) {
+        const Block& block = blocks[i / kLanes];
+        const std::size_t lane = i % kLanes;
+        if (block.a[lane] != block.b[lane]) visit(contactOf(block, lane)); // else an empty lane
       }
-    }
+    });
   }
 
 private:
-  static constexpr std::size_t kLanes = 2;
+  static constexpr std::size_t kLanes = 4;
+  static constexpr std::size_t kBlocks = 8; ///< of a chunk
   static constexpr std::size_t kColours = 32;
   static constexpr std::size_t kLast = kColours - 1; ///< the colour of one after the other
+  static constexpr std::uint32_t kNone = 0xffffffffU;
 
-  /// Two contacts, value by value.
+  /// Contacts, value by value.
   struct Block {
     std::array<std::uint32_t, kLanes> a, b;
-    std::array<double, kLanes> nx, ny, gap, share, impulse;
+    std::array<double, kLanes> nx, ny, touch, share, impulse;
   };
+  /// A colour's chunks. All are full but the last.
+  struct Row {
+    std::uint32_t first = kNone, last = kNone; ///< into chunks_
+    std::uint32_t filled = kLanes * kBlocks;   ///< contacts in the last one
+  };
+
+  static PileContact contactOf(const Block& block, std::size_t lane) {
+    return {block.a[lane],     block.b[lane],     block.nx[lane],     block.ny[lane],
+            block.touch[lane], block.share[lane], block.impulse[lane]};
+  }
+  /// Calls visit(blocks, their number) for each chunk, colour by colour.
+  template <typename Visit>
+  void forEachChunk(Visit&& visit) {
+    for (const Row& row : rows_) {
+      for (std::uint32_t number = row.first; number != kNone; number = next_[number]) {
+        visit(chunks_[number].data(), number == row.last ? (row.filled + kLanes - 1) / kLanes : kBlocks);
+      }
+    }
+  }
+  void startChunk(Row& row);
+  template <bool Pushes>
+  static void sweepByTwo(Block* blocks, std::size_t count, SlotState* states, double perStep,
+                         const Softness& softness);
+  template <bool Pushes>
+  static void sweepByFour(Block* blocks, std::size_t count, SlotState* states, double perStep,
+                          const Softness& softness);
   template <bool Pushes>
   void sweep(std::span<SlotState> states, double h, const Softness& softness);
 
-  std::array<std::vector<Block>, kColours> blocks_;
-  std::array<std::uint32_t, kColours> filled_{}; ///< by colour: contacts
-  std::vector<std::uint32_t> used_;              ///< by slot: a bit for each colour that it occurs in
+  bool wide_;
+
+  std::array<Row, kColours> rows_{}; ///< by colour
+  /// Blocks of one colour each. They stay where they are, so that growing neither copies nor doubles them.
+  std::vector<std::vector<Block>> chunks_;
+  std::vector<std::uint32_t> next_; ///< by chunk: the colour's next, kNone after the last
+  std::uint32_t chunksUsed_ = 0;
+  Block empty_{};                   ///< of nobody
+  std::vector<std::uint32_t> used_; ///< by slot: a bit for each colour that it occurs in
 };
 
 } // namespace offstage

@@ -21,6 +21,7 @@ void ContactMemory::keepOnly(std::span<const std::uint8_t> removed) {
         if (numbers_[entry.other] == kGone) continue;
         entry.other = numbers_[entry.other];
       }
+      if (!rubbings_.empty()) rubbings_[kept] = rubbings_[i];
       entries_[kept++] = entry;
     }
   }
@@ -29,6 +30,7 @@ void ContactMemory::keepOnly(std::span<const std::uint8_t> removed) {
   starts_.resize(living + std::size_t{1});
   starts_[living] = kept;
   entries_.resize(kept);
+  if (!rubbings_.empty()) rubbings_.resize(kept);
 }
 
 } // namespace offstage

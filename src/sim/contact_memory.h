@@ -16,8 +16,7 @@ public:
   /// Single precision: it is where a search starts, not where it ends.
   struct Entry {
     std::uint32_t other;
-    float impulse; ///< px/s
-    float rubbing; ///< px/s
+    float impulse; ///< px/s, across
   };
 
   /// The contact's entry, null when it had none.
@@ -28,8 +27,13 @@ public:
     }
     return nullptr;
   }
-  [[nodiscard]] Entry* find(std::uint32_t body, std::uint32_t other) {
-    return const_cast<Entry*>(static_cast<const ContactMemory*>(this)->find(body, other));
+  /// An entry's impulse along the contact, px/s; 0 where there is no friction.
+  [[nodiscard]] float rubbing(const Entry& entry) const {
+    return rubbings_.empty() ? 0.0F : rubbings_[numberOf(entry)];
+  }
+  void setRubbing(const Entry& entry, float rubbing) {
+    if (rubbings_.empty()) rubbings_.resize(entries_.size(), 0.0F);
+    rubbings_[numberOf(entry)] = rubbing;
   }
 
   /// Takes what visitAll(visit) shows as visit(body, Entry), in place of what was there. It is called twice,
@@ -44,6 +48,7 @@ public:
       start = sum;
     }
     entries_.resize(sum);
+    rubbings_.clear();
     visitAll([&](std::uint32_t body, const Entry& entry) { entries_[--starts_[body]] = entry; });
   }
 
@@ -51,8 +56,13 @@ public:
   void keepOnly(std::span<const std::uint8_t> removed);
 
 private:
+  [[nodiscard]] std::size_t numberOf(const Entry& entry) const {
+    return static_cast<std::size_t>(&entry - entries_.data());
+  }
+
   std::vector<std::uint32_t> starts_; ///< by body: into entries_; one more than there are bodies
   std::vector<Entry> entries_;
+  std::vector<float> rubbings_;        ///< by entry; empty while nothing rubs
   std::vector<std::uint32_t> numbers_; ///< of keepOnly; kept to spare allocations
 };
 

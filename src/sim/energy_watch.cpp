@@ -12,12 +12,12 @@ namespace {
 constexpr double kLeastSpeed = 1.0; // px/s
 
 /// A force that may do any work.
-bool drives(const Force& force, const WorldSetup& setup) {
+bool drives(const Force& force, std::span<const Body> bodies) {
   if (std::holds_alternative<WindForce>(force.kind) || std::holds_alternative<CustomForce>(force.kind))
     return true;
   if (!std::holds_alternative<AttractForce>(force.kind)) return false;
   const std::optional<std::uint32_t> anchor = anchorBody(force);
-  return anchor && !(*anchor < setup.bodies.size() && setup.bodies[*anchor].fixed);
+  return anchor && !(*anchor < bodies.size() && bodies[*anchor].fixed);
 }
 
 double kinetic(const Body& body) {
@@ -26,11 +26,11 @@ double kinetic(const Body& body) {
 
 } // namespace
 
-EnergyWatch::EnergyWatch(const WorldSetup& setup) {
+EnergyWatch::EnergyWatch(const WorldSetup& setup, std::span<const Body> bodies) {
   WorldSetup driving;
   driving.gravity = Vec2::Zero();
   for (const Force& force : setup.forces) {
-    (drives(force, setup) ? driving.forces : keeping_).push_back(force);
+    (drives(force, bodies) ? driving.forces : keeping_).push_back(force);
     causes_.attract = causes_.attract || std::holds_alternative<AttractForce>(force.kind);
   }
   isDriven_ = !driving.forces.empty();

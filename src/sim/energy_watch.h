@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace offstage {
@@ -41,7 +42,8 @@ public:
   static constexpr double kMostDriven = 100.0;
 
   EnergyWatch() = default;
-  explicit EnergyWatch(const WorldSetup& setup);
+  /// `bodies`: at frame 0, where their ids are their places.
+  EnergyWatch(const WorldSetup& setup, std::span<const Body> bodies);
 
   /// Frame 0 and then every frame, in order. The warning names the body with the most kinetic energy.
   std::optional<Warning> find(const World& world);

@@ -21,7 +21,7 @@ void PairGrid::layOutLevels(std::span<const Body> bodies, std::span<const std::u
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const double extent = extentOf(bodies[i]);
     const std::uint32_t level = paired[i] != 0 ? sizes_.levelOf(extent) : 0;
-    level_[i] = paired[i] == 0 ? unbounded + 1 : std::min(level, unbounded);
+    level_[i] = static_cast<std::uint8_t>(paired[i] == 0 ? unbounded + 1 : std::min(level, unbounded));
     if (level_[i] < unbounded) levels_[level].cellsPerPixel = std::max(levels_[level].cellsPerPixel, extent);
   }
   std::uint32_t lists = 0;
@@ -35,24 +35,46 @@ void PairGrid::layOutLevels(std::span<const Body> bodies, std::span<const std::u
     lists += level.mask + 1;
   }
   starts_.resize(lists + 3);
+  findColumns(bodies);
+}
+
+void PairGrid::findColumns(std::span<const Body> bodies) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const double x = centreOf(bodies[i]).x;
+    if (level_[i] < levels_.size() && std::isfinite(x)) levels_[level_[i]].note(x);
+  }
+}
+
+/// A row of lists for each row of cells, as wide as the bodies are spread. Where that is too wide for the
+/// lists that there are, an odd part of them (2^32 over the golden ratio; Knuth, The Art of Computer
+/// Programming, volume 3, section 6.4). Bodies that have spread since the step before only share lists with
+/// others.
+void PairGrid::chooseStride(Level& level) {
+  constexpr std::uint32_t kSpread = 2654435769U;
+  const std::uint32_t columns = level.rightmost - level.leftmost;
+  const bool fits = level.leftmost <= level.rightmost && columns < level.mask / 4;
+  level.stride = fits ? columns + 3 : kSpread;
+  level.leftmost = 0xffffffffU;
+  level.rightmost = 0;
 }
 
 void PairGrid::begin(std::span<const Body> bodies, std::span<const std::uint8_t> paired, double margin,
                      bool sizesChanged) {
   if (sizesChanged) layOutLevels(bodies, paired, margin);
+  for (Level& level : levels_) chooseStride(level);
   const std::size_t unbounded = starts_.size() - 3; // behind all lists: the unbounded, then those alone
   std::fill(starts_.begin(), starts_.end(), 0U);
   list_.resize(bodies.size());
   order_.resize(bodies.size());
-  places_.resize(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const Place place = placeOf(bodies[i]);
+    const Point centre = centreOf(bodies[i]);
     std::size_t list = unbounded + 1;
-    if (std::isfinite(place.x) && std::isfinite(place.y) && level_[i] <= levels_.size()) {
+    if (std::isfinite(centre.x) && std::isfinite(centre.y) && level_[i] <= levels_.size()) {
       list = unbounded;
       if (level_[i] < levels_.size()) {
-        const Level& level = levels_[level_[i]];
-        list = level.firstList + listAt(level, place);
+        Level& level = levels_[level_[i]];
+        level.note(centre.x);
+        list = level.firstList + listAt(level, centre);
       }
     }
     list_[i] = static_cast<std::uint32_t>(list);

@@ -8,23 +8,17 @@
 namespace offstage {
 namespace {
 
-/// A body's extent along one axis, from its position: position − before … position + after.
-struct Reach {
-  double before;
-  double after;
-};
-
-Reach reach(const Body& body, int axis) {
-  if (body.shape == Shape::Circle) return {body.radius, body.radius};
-  return {0.0, body.size[axis]};
-}
-
 /// Takes at most `most` from a speed.
 void rub(double most, double& speed) {
   speed -= std::clamp(speed, -most, most);
 }
 
 } // namespace
+
+Reach reachOf(const Body& body, int axis) {
+  if (body.shape == Shape::Circle) return {body.radius, body.radius};
+  return {0.0, body.size[axis]};
+}
 
 void bounceOffWalls(const Walls& walls, const Vec2& pane, Body& body, const Event& stamp,
                     std::vector<Event>& events) {
@@ -35,7 +29,7 @@ void bounceOffWalls(const Walls& walls, const Vec2& pane, Body& body, const Even
     if (!k) continue;
     const int axis = side < 2 ? 0 : 1;
     const bool lower = side % 2 == 0; // the edge at coordinate 0
-    const auto [before, after] = reach(body, axis);
+    const auto [before, after] = reachOf(body, axis);
     double& x = body.position[axis];
     double& v = body.velocity[axis];
     const bool touches = lower ? x - before <= 0.0 : x + after >= pane[axis];
@@ -55,7 +49,7 @@ void bounceOffWalls(const Walls& walls, const Vec2& pane, Body& body, const Even
 
 bool isOutside(const Vec2& pane, const Body& body) {
   for (int axis = 0; axis < 2; ++axis) {
-    const auto [before, after] = reach(body, axis);
+    const auto [before, after] = reachOf(body, axis);
     const double x = body.position[axis];
     if (x + after < 0.0 || x - before > pane[axis]) return true;
   }

@@ -8,6 +8,13 @@
 
 namespace offstage {
 
+/// A body's extent along one axis, from its position: position − before … position + after.
+struct Reach {
+  double before; ///< px
+  double after;  ///< px
+};
+Reach reachOf(const Body& body, int axis);
+
 /// Holds a body that has just moved to the pane's edges, left, right, top, bottom in this order; a circle
 /// touches with centre ± radius, a rectangle with its sides. With k as below and, as an example,
 /// the right one:

@@ -24,7 +24,8 @@ std::optional<Warning> findNotFinite(std::span<const Body> bodies) {
   return warning;
 }
 
-Watch::Watch(const World& world) : springs_(world.setup()), tunnels_(world.setup()), energy_(world.setup()) {
+Watch::Watch(const World& world)
+    : springs_(world.setup()), tunnels_(world.setup()), energy_(world.setup(), world.bodies()) {
   static_cast<void>(tunnels_.findEdge(world.bodies())); // those that start out there
   static_cast<void>(energy_.find(world));
 }

@@ -47,16 +47,21 @@ World::World(WorldSetup setup)
   }
   swept_ = SweptContacts(setup_);
   contacts_ = ContactSolver(onePairAtATime);
-  const std::vector<Body> first = std::exchange(setup_.bodies, {});
-  bodies_.reserve(first.size());
-  for (const Body& body : first) create(body, time_);
+  bodies_ = std::exchange(setup_.bodies, {});
+  for (Body& body : bodies_) admit(body, time_);
 }
 
 void World::create(Body body, double time) {
+  admit(body, time);
+  bodies_.push_back(body);
+}
+
+void World::admit(Body& body, double time) {
   body.id = nextId_;
   mover_.add(setup_, body, time);
-  bodies_.push_back(body);
   if (body.spawner < alive_.size()) ++alive_[body.spawner];
+  anyContinuous_ = anyContinuous_ || body.continuous;
+  anyRemovedOutside_ = anyRemovedOutside_ || body.removedOutside;
   ++nextId_;
 }
 
@@ -143,7 +148,7 @@ void World::spawnDue(Spawner::When when, const Tick& tick, double time) {
 void World::substep(double t, double h, double end, const Event& stamp, StepObserver* observer) {
   if (observer != nullptr) observer->beforeMove(bodies_, h);
   const std::size_t before = events_.size();
-  const bool sweeps = swept_.begin(bodies_);
+  const bool sweeps = anyContinuous_ && swept_.begin(bodies_);
   mover_.begin(bodies_, t, h);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
@@ -164,7 +169,7 @@ void World::pileStep(const Tick& tick, StepObserver* observer) {
   if (observer != nullptr) observer->beforeMove(bodies_, tick.dt / setup_.substeps);
   const std::size_t before = events_.size();
   const Event stamp = stampOf(tick);
-  const bool sweeps = swept_.begin(bodies_);
+  const bool sweeps = anyContinuous_ && swept_.begin(bodies_);
   pile_.step(bodies_, mover_, time_, tick.dt, tick.time, stamp, events_);
   if (observer != nullptr) observer->afterMove(bodies_, std::span(events_).subspan(before));
   if (sweeps) sweep(tick.dt, stamp);
@@ -183,7 +188,7 @@ void World::sweep(double h, const Event& stamp) {
 }
 
 void World::removeGone(const Event& stamp) {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+  for (std::size_t i = 0; anyRemovedOutside_ && i < bodies_.size(); ++i) {
     const Body& body = bodies_[i];
     if (removed_[i] != 0 || !body.removedOutside || !isOutside(setup_.pane, body)) continue;
     removed_[i] = 1;

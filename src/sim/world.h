@@ -54,7 +54,8 @@ public:
 
 private:
   void advance(const Tick& tick, StepObserver* observer); ///< one step
-  void create(Body body, double time); ///< gives the body its id and lets it move from `time` on
+  void create(Body body, double time);
+  void admit(Body& body, double time); ///< gives the body its id and lets it move from `time` on
   void launchDue(const Tick& tick);
   void spawnDue(Spawner::When when, const Tick& tick, double time);
   void substep(double t, double h, double end, const Event& stamp,
@@ -75,6 +76,9 @@ private:
       removed_; ///< by index into bodies_, within a step: 1 when a contact takes it away
   std::vector<std::int64_t> spawned_; ///< by spawner: bodies that it has made
   std::vector<std::int64_t> alive_;   ///< by spawner: those of them that live
+  // Whether there ever was such a body: else nobody looks for them.
+  bool anyContinuous_ = false;
+  bool anyRemovedOutside_ = false;
   std::vector<Event> events_;
   std::uint32_t nextId_ = 0;
   std::int64_t frame_ = 0;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <fstream>
+#include <malloc.h>
 #include <string>
 #include <sys/resource.h>
 
@@ -25,6 +26,13 @@ inline std::size_t peakKib() {
   while (status >> word)
     if (word == "VmHWM:") status >> kib;
   return kib;
+}
+
+/// Gives back what is free and forgets the peak: peakKib() is then what is resident now. Where the kernel
+/// does not let a process do so the peak stays.
+inline void restartPeak() {
+  malloc_trim(0);
+  std::ofstream("/proc/self/clear_refs") << 5; // proc(5)
 }
 
 } // namespace offstage::bench

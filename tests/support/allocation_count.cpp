@@ -25,6 +25,14 @@ void* allocate(std::size_t size) {
   throw std::bad_alloc();
 }
 
+void* allocate(std::size_t size, std::align_val_t alignment) {
+  ++count;
+  const auto step = static_cast<std::size_t>(alignment);
+  const std::size_t whole = (size + step - 1) / step * step; // as aligned_alloc wants it
+  if (void* memory = std::aligned_alloc(step, whole == 0 ? step : whole)) return memory;
+  throw std::bad_alloc();
+}
+
 } // namespace
 
 // The whole program's, so that what the library and the drivers allocate counts too.
@@ -33,6 +41,24 @@ void* operator new(std::size_t size) {
 }
 void* operator new[](std::size_t size) {
   return allocate(size);
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return allocate(size, alignment);
+}
+void* operator new[](std::size_t size, std::align_val_t alignment) {
+  return allocate(size, alignment);
+}
+void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept {
+  std::free(memory); // NOLINT(cppcoreguidelines-no-malloc)
+}
+void operator delete[](void* memory, std::align_val_t /*alignment*/) noexcept {
+  std::free(memory); // NOLINT(cppcoreguidelines-no-malloc)
+}
+void operator delete(void* memory, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept {
+  std::free(memory); // NOLINT(cppcoreguidelines-no-malloc)
+}
+void operator delete[](void* memory, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept {
+  std::free(memory); // NOLINT(cppcoreguidelines-no-malloc)
 }
 void operator delete(void* memory) noexcept {
   std::free(memory); // NOLINT(cppcoreguidelines-no-malloc)
