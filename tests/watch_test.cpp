@@ -193,6 +193,22 @@ TEST(Watch, AnUnstableSpringIsFoundByItsStepAndByItsEnergy) {
   EXPECT_THAT(warningsOf(setup, 600), IsEmpty());
 }
 
+TEST(Watch, AFallIntoAPointThatAttractsIsJudgedAlikeWhetherItIsAPointOrAFixedBody) {
+  const auto run = [](const Anchor& center) {
+    WorldSetup setup = floating();
+    setup.bodies = {circle(320, 240, 5), circle(347, 240, 5)};
+    setup.bodies[0].fixed = true;
+    addForce(setup, {AttractForce{center, 1e7, 0.1}, {}, {}});
+    return warningsOf(setup, 120);
+  };
+  const std::vector<Warning> point = run({Vec2(320, 240), {}});
+  const std::vector<Warning> body = run({{}, 0U});
+  only<EnergyGrowth>(point);
+  only<EnergyGrowth>(body);
+  EXPECT_EQ(point[0].frame, body[0].frame);
+  EXPECT_EQ(body[0].body, 1U);
+}
+
 TEST(Watch, EnergyThatForcesSpawnsAndLaunchesBringIsNotFromNowhere) {
   const Scene scene = sceneOf(R"(
 duration = 8.0
