@@ -423,7 +423,11 @@ std::span<const SceneKey> sceneKeyTable() {
 
 std::span<const SceneKey* const> sceneKeysNamed(std::string_view key) {
   static const std::vector<const SceneKey*> kByName = sortedByName();
-  return std::ranges::equal_range(kByName, key, {}, &SceneKey::key);
+  // Not std::ranges::equal_range(), whose result clang++ 14 cannot compile.
+  const auto before = [](const SceneKey* candidate, std::string_view name) { return candidate->key < name; };
+  const auto behind = [](std::string_view name, const SceneKey* candidate) { return name < candidate->key; };
+  return {std::lower_bound(kByName.begin(), kByName.end(), key, before),
+          std::upper_bound(kByName.begin(), kByName.end(), key, behind)};
 }
 
 std::vector<SceneKey> sceneKeys() {
