@@ -175,8 +175,8 @@ private:
 
   /// Whether a packet from the last key frame on has to be decoded. What an H.264 slice holds can be read
   /// without the pictures that it refers to (entropy coding starts anew with every slice: ITU-T
-  /// H.264, 9.3.1), and nobody looks at the result: decoding all of them would take as long as encoding a
-  /// fifth of them. VP9's probabilities come from the frames before.
+  /// H.264, 9.3.1), and nobody looks at the result: at the end of a busy video decoding all of them takes
+  /// long. VP9's probabilities come from the frames before.
   [[nodiscard]] bool leadsToLast(const AVPacket& packet) const {
     if (stream_->codecpar->codec_id != AV_CODEC_ID_H264) return true;
     return packet.pts == lastStart_ || (packet.flags & AV_PKT_FLAG_KEY) != 0;

@@ -28,14 +28,14 @@ namespace {
 //   veryfast, crf 20   0.76    52 .99961    2.80   1942 .98678    2.53   6024 .94704
 //   D                  0.58    53 .99962    1.71   2053 .98722    1.97   6345 .95039
 //   E                  0.50    52 .99962    1.50   2084 .98707    1.70   6400 .95040
-// and of 60 frames at all three, and of a photo on 100 circles (P), KiB, SSIM; their CPU seconds are the same
-// within what the machine varies:
+// and of 60 frames at all three, and of an image on 100 circles (P), KiB, SSIM; their CPU seconds are the
+// same within what the machine varies:
 //                            N = 10       N = 1000       N = 10000        P
 //   veryfast, crf 20         52 .99961    1942 .98678    12010 .94665    947 .99155
 //   E                        52 .99962    2087 .98706    12753 .95002    913 .99184
 //   E, no 8x8dct, crf 18.7   48 .99959    1934 .98679    11979 .95056     -     -
 //   F                        51 .99961    2056 .98762    12699 .95421    904 .99176
-//   F, qcomp=0.4, crf 16.6   52 .99962    2041 .98764    12247 .95192    885 .99188
+//   F, qcomp=0.4, crf 16.6   52 .99962    2041 .98764    12247 .95192    885 .99188*   * crf 16.7
 //   the one below            52 .99962    2018 .98746    11676 .94861    889 .99217
 //   F, qcomp=0.2, crf 13.8   53 .99963    2004 .98725    11198 .94546    886 .99228
 // A: subme=1 b-adapt=0, crf 18. B: A with rc-lookahead=20 bframes=4 weightp=0 direct=temporal, crf 20.

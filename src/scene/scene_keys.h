@@ -11,8 +11,8 @@ namespace offstage {
 /// are required and what the others default to; scenes/README.md is held to it by a test.
 std::span<const SceneKey> sceneKeyTable();
 
-/// Those of it that are called `key`, of whatever table, in the list's order. Scenes of 10,000 bodies ask for
-/// some 300,000 of them.
+/// Those of it that are called `key`, of whatever table, in the list's order. A scene asks for every key of
+/// every body.
 std::span<const SceneKey* const> sceneKeysNamed(std::string_view key);
 
 } // namespace offstage
