@@ -13,8 +13,8 @@ namespace offstage {
 
 /// A position or a velocity is infinite or no number.
 struct NotFinite {
-  Vec2 position; ///< px
-  Vec2 velocity; ///< px/s
+  Vec2 position = Vec2::Zero(); ///< px
+  Vec2 velocity = Vec2::Zero(); ///< px/s
 };
 
 /// The bodies have more energy than anything accounts for (EnergyWatch).
