@@ -18,7 +18,8 @@ double between(Random& random, double low, double high) {
 }
 
 /// The bits of all velocities and impulses after a few sweeps over random contacts, some with fixed bodies.
-std::vector<std::uint64_t> bitsAfterSweeps(bool wide, int contacts) {
+/// `even`: all bodies that can move have one mass. `kept`: whether their shares are kept nevertheless.
+std::vector<std::uint64_t> bitsAfterSweeps(bool wide, int contacts, bool even, bool kept) {
   Random random(11);
   std::vector<SlotState> states(kBodies + 2); // and the outside, and nobody
   for (std::uint32_t slot = 0; slot < kBodies; ++slot) {
@@ -27,7 +28,7 @@ std::vector<std::uint64_t> bitsAfterSweeps(bool wide, int contacts) {
   }
   states[7].vx = std::nan("");
   ContactBlocks blocks(wide);
-  blocks.begin(kBodies + 1);
+  blocks.begin(kBodies + 1, even && !kept);
   for (int i = 0; i < contacts; ++i) {
     PileContact contact;
     contact.a = static_cast<std::uint32_t>(random.nextInt(kBodies));
@@ -37,7 +38,7 @@ std::vector<std::uint64_t> bitsAfterSweeps(bool wide, int contacts) {
     contact.nx = between(random, -1, 1);
     contact.ny = std::sqrt(1.0 - contact.nx * contact.nx);
     contact.touch = between(random, -1, 20);
-    contact.share = contact.b == kBodies ? 1.0 : between(random, 0, 1);
+    contact.share = contact.b == kBodies ? 1.0 : even ? 0.5 : between(random, 0, 1);
     contact.impulse = between(random, 0, 0.5);
     blocks.add(contact);
   }
@@ -61,12 +62,23 @@ std::vector<std::uint64_t> bitsAfterSweeps(bool wide, int contacts) {
 TEST(ContactBlocks, FourAtATimeGiveTheBitsOfTwo) {
   if (!ContactBlocks::processorIsWide()) GTEST_SKIP() << "this processor has no AVX2";
   for (const int contacts : {1, 2, 3, 5, 60, 400, 3000}) { // from 3000 on the last colour has many
-    const auto wide = bitsAfterSweeps(true, contacts);
-    const auto narrow = bitsAfterSweeps(false, contacts);
-    ASSERT_EQ(wide.size(), 2 * (kBodies + 2) + static_cast<std::size_t>(contacts));
-    for (std::size_t i = 0; i < wide.size(); ++i) {
-      ASSERT_EQ(wide[i], narrow[i]) << "value " << i << " of " << wide.size() << " with " << contacts
-                                    << " contacts";
+    for (const bool even : {false, true}) {
+      const auto wide = bitsAfterSweeps(true, contacts, even, false);
+      const auto narrow = bitsAfterSweeps(false, contacts, even, false);
+      ASSERT_EQ(wide.size(), 2 * (kBodies + 2) + static_cast<std::size_t>(contacts));
+      for (std::size_t i = 0; i < wide.size(); ++i) {
+        ASSERT_EQ(wide[i], narrow[i]) << "value " << i << " of " << wide.size() << " with " << contacts
+                                      << " contacts" << (even ? " of one mass" : "");
+      }
+    }
+  }
+}
+
+TEST(ContactBlocks, SharesThatAreEvenAndNotKeptGiveTheBitsOfThoseThatAre) {
+  for (const bool wide : {false, ContactBlocks::processorIsWide()}) {
+    for (const int contacts : {1, 7, 400}) {
+      EXPECT_EQ(bitsAfterSweeps(wide, contacts, true, false), bitsAfterSweeps(wide, contacts, true, true))
+          << contacts << " contacts, " << (wide ? "four" : "two") << " at a time";
     }
   }
 }

@@ -357,7 +357,18 @@ TEST(PileSolver, WorkloadSHasThePinnedStateHash) {
   // The bits of every machine, compiler and optimisation level; tests/parity holds the others to it.
   World world(WorkloadS(400).setup);
   run(world, 300);
-  EXPECT_EQ(world.stateHash(), 0xdaf3aa2b6f64fc99ULL);
+  EXPECT_EQ(world.stateHash(), 0xf56b29432c21d9bfULL);
+}
+
+/// Puts the bodies where they are now into a grid that is laid out; their slots.
+std::vector<std::uint32_t> fill(PairGrid& grid, std::span<const Body> bodies) {
+  PairGrid::Counting counting = grid.startCounting();
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) counting.add(i, PairGrid::centreOf(bodies[i]));
+  grid.startInserting();
+  std::vector<std::uint32_t> slots;
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) slots.push_back(grid.insert(i));
+  grid.end();
+  return slots;
 }
 
 TEST(PairGrid, FindsEveryNearPairOnce) {
@@ -375,10 +386,8 @@ TEST(PairGrid, FindsEveryNearPairOnce) {
     std::vector<std::uint8_t> paired(bodies.size(), 1);
     paired[7] = 0;
     PairGrid grid;
-    grid.begin(bodies, paired, 0.25, true);
-    std::vector<std::uint32_t> slots;
-    for (std::uint32_t i = 0; i < bodies.size(); ++i) slots.push_back(grid.insert(i));
-    grid.end();
+    grid.layOut(bodies, paired, 0.25);
+    const std::vector<std::uint32_t> slots = fill(grid, bodies);
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> found;
     grid.forEachRun([&](std::uint32_t slot) { return PairGrid::centreOf(bodies[grid.order()[slot]]); },
                     [&](std::uint32_t slot, std::uint32_t first, std::uint32_t end) {
@@ -413,9 +422,8 @@ TEST(PairGrid, ColumnOfBodiesThatSpreadsHasFewNeighboursAgain) {
   PairGrid grid;
   std::size_t pairs = 0;
   const auto lookAtAll = [&](bool first) {
-    grid.begin(bodies, paired, 0.25, first);
-    for (std::uint32_t i = 0; i < bodies.size(); ++i) grid.insert(i);
-    grid.end();
+    if (first) grid.layOut(bodies, paired, 0.25);
+    fill(grid, bodies);
     pairs = 0;
     grid.forEachRun([&](std::uint32_t slot) { return PairGrid::centreOf(bodies[grid.order()[slot]]); },
                     [&](std::uint32_t, std::uint32_t from, std::uint32_t end) { pairs += end - from; });

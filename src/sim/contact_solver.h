@@ -23,6 +23,8 @@ public:
   /// Copies the rules: at most one for a pair of groups.
   explicit ContactSolver(const std::vector<ContactRule>& rules);
 
+  [[nodiscard]] bool hasRules() const { return !rules_.empty(); }
+
   /// One pass over `bodies`. Sets removed[i] (as long as bodies, 0 before) for those that a rule takes away,
   /// and appends events whose frame and time are those of `stamp`.
   void solve(std::span<Body> bodies, std::span<std::uint8_t> removed, const Event& stamp,

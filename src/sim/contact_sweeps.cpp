@@ -75,33 +75,41 @@ bool ContactBlocks::processorIsWide() {
 #endif
 }
 
+template <bool Even>
+void ContactBlocks::warmStartRun(const Run& run, SlotState* states) {
+  for (std::size_t i = 0; i < run.count * kLanes; i += 2) {
+    const Block& block = run.blocks[i / kLanes];
+    const std::size_t lane = i % kLanes;
+    SlotState& a0 = states[block.a[lane]];
+    SlotState& a1 = states[block.a[lane + 1]];
+    SlotState& b0 = states[block.b[lane]];
+    SlotState& b1 = states[block.b[lane + 1]];
+    const Two share =
+        Even ? Two{evenShare(block.b[lane], run.outside), evenShare(block.b[lane + 1], run.outside)}
+             : load(&run.shares[i / kLanes][lane]);
+    const Two impulse = load(&block.impulse[lane]);
+    const Two ofA = share * impulse;
+    const Two ofB = impulse - ofA;
+    const Two nx = load(&block.nx[lane]);
+    const Two ny = load(&block.ny[lane]);
+    const TwoVectors va = velocities(a0, a1);
+    setVelocities(a0, a1, {va.x - ofA * nx, va.y - ofA * ny});
+    const TwoVectors vb = velocities(b0, b1);
+    setVelocities(b0, b1, {vb.x + ofB * nx, vb.y + ofB * ny});
+  }
+}
+
 void ContactBlocks::warmStart(std::span<SlotState> states) {
-  forEachChunk([&](const Block* blocks, std::size_t count) {
-    for (std::size_t i = 0; i < count * kLanes; i += 2) {
-      const Block& block = blocks[i / kLanes];
-      const std::size_t lane = i % kLanes;
-      SlotState& a0 = states[block.a[lane]];
-      SlotState& a1 = states[block.a[lane + 1]];
-      SlotState& b0 = states[block.b[lane]];
-      SlotState& b1 = states[block.b[lane + 1]];
-      const Two impulse = load(&block.impulse[lane]);
-      const Two ofA = load(&block.share[lane]) * impulse;
-      const Two ofB = impulse - ofA;
-      const Two nx = load(&block.nx[lane]);
-      const Two ny = load(&block.ny[lane]);
-      const TwoVectors va = velocities(a0, a1);
-      setVelocities(a0, a1, {va.x - ofA * nx, va.y - ofA * ny});
-      const TwoVectors vb = velocities(b0, b1);
-      setVelocities(b0, b1, {vb.x + ofB * nx, vb.y + ofB * ny});
-    }
+  forEachChunk([&](std::uint32_t chunk, std::uint32_t count) {
+    even_ ? warmStartRun<true>(runOf(chunk, count), states.data())
+          : warmStartRun<false>(runOf(chunk, count), states.data());
   });
 }
 
-template <bool Pushes>
-void ContactBlocks::sweepByTwo(Block* blocks, std::size_t count, SlotState* states, double perStep,
-                               const Softness& softness) {
-  for (std::size_t i = 0; i < count * kLanes; i += 2) {
-    Block& block = blocks[i / kLanes];
+template <bool Pushes, bool Even>
+void ContactBlocks::sweepByTwo(const Run& run, SlotState* states, double perStep, const Softness& softness) {
+  for (std::size_t i = 0; i < run.count * kLanes; i += 2) {
+    Block& block = run.blocks[i / kLanes];
     const std::size_t lane = i % kLanes;
     SlotState& a0 = states[block.a[lane]];
     SlotState& a1 = states[block.a[lane + 1]];
@@ -130,19 +138,23 @@ void ContactBlocks::sweepByTwo(Block* blocks, std::size_t count, SlotState* stat
     const Two impulse = wanted > zero ? wanted : zero; // contacts never pull; NaN becomes 0
     store(&block.impulse[lane], impulse);
     const Two change = impulse - old;
-    const Two ofA = load(&block.share[lane]) * change;
+    const Two share =
+        Even ? Two{evenShare(block.b[lane], run.outside), evenShare(block.b[lane + 1], run.outside)}
+             : load(&run.shares[i / kLanes][lane]);
+    const Two ofA = share * change;
     const Two ofB = change - ofA;
     setVelocities(a0, a1, {va.x - ofA * nx, va.y - ofA * ny});
     setVelocities(b0, b1, {vb.x + ofB * nx, vb.y + ofB * ny});
   }
 }
 
-template <bool Pushes>
-OFFSTAGE_WIDE void ContactBlocks::sweepByFour(Block* blocks, std::size_t count, SlotState* states,
-                                              double perStep, const Softness& softness) {
+template <bool Pushes, bool Even>
+OFFSTAGE_WIDE void ContactBlocks::sweepByFour(const Run& run, SlotState* states, double perStep,
+                                              const Softness& softness) {
   static_assert(kLanes == 4 && sizeof(SlotState) == sizeof(Four));
   const Four zero{};
-  for (Block* block = blocks; block != blocks + count; ++block) {
+  for (std::uint32_t i = 0; i < run.count; ++i) {
+    Block* const block = run.blocks + i;
     SlotState& a0 = states[block->a[0]];
     SlotState& a1 = states[block->a[1]];
     SlotState& a2 = states[block->a[2]];
@@ -158,7 +170,18 @@ OFFSTAGE_WIDE void ContactBlocks::sweepByFour(Block* blocks, std::size_t count, 
     loadFour(block->nx.data(), nx);
     loadFour(block->ny.data(), ny);
     loadFour(block->touch.data(), touch);
-    loadFour(block->share.data(), share);
+    if constexpr (Even) {
+      using Indices = std::uint32_t __attribute__((vector_size(16)));
+      using Masks = std::int32_t __attribute__((vector_size(16)));
+      using WideMasks = std::int64_t __attribute__((vector_size(32)));
+      Indices others;
+      std::memcpy(&others, block->b.data(), sizeof others);
+      const WideMasks fixed =
+          __builtin_convertvector(reinterpret_cast<Masks>(others == run.outside), WideMasks);
+      share = fixed ? 1.0 + zero : 0.5 + zero;
+    } else {
+      loadFour(run.shares[i].data(), share);
+    }
     loadFour(block->impulse.data(), old);
     const Four gap = ((b.x - a.x) * nx + (b.y - a.y) * ny) - touch;
     const Four vn = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny;
@@ -181,24 +204,25 @@ OFFSTAGE_WIDE void ContactBlocks::sweepByFour(Block* blocks, std::size_t count, 
   }
 }
 
-template <bool Pushes>
+template <bool Pushes, bool Even>
 void ContactBlocks::sweep(std::span<SlotState> states, double h, const Softness& softness) {
   const double perStep = 1.0 / h;
-  forEachChunk([&](Block* blocks, std::size_t count) {
+  forEachChunk([&](std::uint32_t chunk, std::uint32_t count) {
+    const Run run = runOf(chunk, count);
     if (wide_) {
-      sweepByFour<Pushes>(blocks, count, states.data(), perStep, softness);
+      sweepByFour<Pushes, Even>(run, states.data(), perStep, softness);
     } else {
-      sweepByTwo<Pushes>(blocks, count, states.data(), perStep, softness);
+      sweepByTwo<Pushes, Even>(run, states.data(), perStep, softness);
     }
   });
 }
 
 void ContactBlocks::solve(std::span<SlotState> states, double h, const Softness& softness) {
-  sweep<true>(states, h, softness);
+  even_ ? sweep<true, true>(states, h, softness) : sweep<true, false>(states, h, softness);
 }
 
 void ContactBlocks::relax(std::span<SlotState> states, double h) {
-  sweep<false>(states, h, {});
+  even_ ? sweep<false, true>(states, h, {}) : sweep<false, false>(states, h, {});
 }
 
 } // namespace offstage

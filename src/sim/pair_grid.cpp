@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 namespace offstage {
 
-void PairGrid::layOutLevels(std::span<const Body> bodies, std::span<const std::uint8_t> paired,
-                            double margin) {
+void PairGrid::layOut(std::span<const Body> bodies, std::span<const std::uint8_t> paired, double margin) {
   sizes_.clear();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (paired[i] != 0) sizes_.count(extentOf(bodies[i]));
@@ -35,13 +33,18 @@ void PairGrid::layOutLevels(std::span<const Body> bodies, std::span<const std::u
     lists += level.mask + 1;
   }
   starts_.resize(lists + 3);
+  list_.resize(bodies.size());
+  order_.resize(bodies.size());
   findColumns(bodies);
 }
 
 void PairGrid::findColumns(std::span<const Body> bodies) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const double x = centreOf(bodies[i]).x;
-    if (level_[i] < levels_.size() && std::isfinite(x)) levels_[level_[i]].note(x);
+    const Point centre = centreOf(bodies[i]);
+    if (level_[i] < levels_.size() && bothFinite(load(&centre.x))) {
+      Level& level = levels_[level_[i]];
+      level.note(cellAt(level, centre).x);
+    }
   }
 }
 
@@ -58,31 +61,24 @@ void PairGrid::chooseStride(Level& level) {
   level.rightmost = 0;
 }
 
-void PairGrid::begin(std::span<const Body> bodies, std::span<const std::uint8_t> paired, double margin,
-                     bool sizesChanged) {
-  if (sizesChanged) layOutLevels(bodies, paired, margin);
+PairGrid::Counting::Counting(PairGrid& grid)
+    : levels_(grid.levels_.data()),
+      levelCount_(grid.levels_.size()),
+      numbers_(grid.level_.data()),
+      lists_(grid.list_.data()),
+      starts_(grid.starts_.data()),
+      unbounded_(static_cast<std::uint32_t>(grid.starts_.size() - 3)) {}
+
+PairGrid::Counting PairGrid::startCounting() {
   for (Level& level : levels_) chooseStride(level);
-  const std::size_t unbounded = starts_.size() - 3; // behind all lists: the unbounded, then those alone
   std::fill(starts_.begin(), starts_.end(), 0U);
-  list_.resize(bodies.size());
-  order_.resize(bodies.size());
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const Point centre = centreOf(bodies[i]);
-    std::size_t list = unbounded + 1;
-    if (std::isfinite(centre.x) && std::isfinite(centre.y) && level_[i] <= levels_.size()) {
-      list = unbounded;
-      if (level_[i] < levels_.size()) {
-        Level& level = levels_[level_[i]];
-        level.note(centre.x);
-        list = level.firstList + listAt(level, centre);
-      }
-    }
-    list_[i] = static_cast<std::uint32_t>(list);
-    ++starts_[list + 1];
-  }
+  return Counting(*this);
+}
+
+void PairGrid::startInserting() {
   for (std::size_t list = 1; list < starts_.size(); ++list) starts_[list] += starts_[list - 1];
-  firstUnbounded_ = starts_[unbounded];
-  firstAlone_ = starts_[unbounded + 1];
+  firstUnbounded_ = starts_[starts_.size() - 3];
+  firstAlone_ = starts_[starts_.size() - 2];
 }
 
 void PairGrid::end() {

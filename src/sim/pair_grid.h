@@ -2,6 +2,7 @@
 
 #include "src/sim/body.h"
 #include "src/sim/size_levels.h"
+#include "src/sim/two.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -20,18 +21,91 @@ public:
   struct Point {
     double x, y; ///< px
   };
+
+private:
+  struct Level {
+    double cellsPerPixel = 1.0;
+    std::uint32_t firstList = 0;                         ///< into starts_
+    std::uint32_t mask = 0;                              ///< number of its lists, a power of 2, minus 1
+    std::uint32_t leftmost = 0xffffffffU, rightmost = 0; ///< cells of its bodies, of the step before
+    std::uint32_t stride = 3;                            ///< lists from a cell to the one below
+
+    void note(std::uint32_t cellX) { ///< that a body is there
+      leftmost = cellX < leftmost ? cellX : leftmost;
+      rightmost = cellX > rightmost ? cellX : rightmost;
+    }
+  };
+  struct Cell {
+    std::uint32_t x, y; ///< 0 … 2^31
+  };
+
+  /// The cell that a finite point lies in; what is beyond 2^30 cells of 0 counts as there. A cell begins half
+  /// a cell before its number's place, for the sum leaves the nearest whole number in its lowest bits.
+  static Cell cellAt(const Level& level, const Point& point) {
+    constexpr double kFarthest = 1 << 30;
+    constexpr double kToLowestBits = 0x1.8p52 + kFarthest;
+    Two cells = load(&point.x) * level.cellsPerPixel;
+    cells = cells > -kFarthest ? cells : -kFarthest + Two{};
+    cells = cells < kFarthest ? cells : kFarthest + Two{};
+    const auto bits = reinterpret_cast<TwoBits>(cells + kToLowestBits);
+    return {static_cast<std::uint32_t>(bits[0]), static_cast<std::uint32_t>(bits[1])};
+  }
+
+  /// Row after row, so that what lies below is near in memory; any 3 × 3 cells have 9 different lists.
+  static std::uint32_t listOf(const Level& level, std::uint32_t cellX, std::uint32_t cellY) {
+    return (cellX + cellY * level.stride) & level.mask;
+  }
+  static std::uint32_t listAt(const Level& level, const Point& point) {
+    const Cell cell = cellAt(level, point);
+    return listOf(level, cell.x, cell.y);
+  }
+
+public:
   static Point centreOf(const Body& body) {
     if (body.shape == Shape::Circle) return {body.position.x(), body.position.y()};
     const Vec2 centre = body.position + body.size * 0.5;
     return {centre.x(), centre.y()};
   }
 
-  /// Counts what every cell will hold. `margin`: two bodies are near while the gap between them is at most
-  /// margin·(the larger half extent). Bodies that have `paired[i] == 0` or are infinitely far away or nowhere
-  /// are in no pair. `sizesChanged`: whether bodies came, went or grew since the last time. Then insert()
-  /// takes each body once, in the order of `bodies`, and end() makes the grid ready.
-  void begin(std::span<const Body> bodies, std::span<const std::uint8_t> paired, double margin,
-             bool sizesChanged);
+  /// Chooses the levels, at first and whenever bodies came, went or grew. `margin`: two bodies are near while
+  /// the gap between them is at most margin·(the larger half extent). Bodies that have `paired[i] == 0` or
+  /// are infinitely far away or nowhere are in no pair.
+  void layOut(std::span<const Body> bodies, std::span<const std::uint8_t> paired, double margin);
+
+  /// The grid is filled in two rounds: first every body is counted, in any order, then every one is inserted,
+  /// in the order of `bodies`. A Counting is the first round; it is good while nothing else is done with the
+  /// grid. It has what it needs at hand, for a compiler cannot know that stores of vectors leave a grid
+  /// alone.
+  class Counting {
+  public:
+    void add(std::uint32_t index, const Point& centre) {
+      std::uint32_t list = unbounded_ + 1; // those alone
+      const std::size_t number = numbers_[index];
+      if (number <= levelCount_ && bothFinite(load(&centre.x))) {
+        list = unbounded_;
+        if (number < levelCount_) {
+          Level& level = levels_[number];
+          const Cell cell = cellAt(level, centre);
+          level.note(cell.x);
+          list = level.firstList + listOf(level, cell.x, cell.y);
+        }
+      }
+      lists_[index] = list;
+      ++starts_[list + 1];
+    }
+
+  private:
+    friend class PairGrid;
+    explicit Counting(PairGrid& grid);
+    Level* levels_;
+    std::size_t levelCount_;
+    const std::uint8_t* numbers_; ///< by body: PairGrid::level_
+    std::uint32_t* lists_;
+    std::uint32_t* starts_;
+    std::uint32_t unbounded_; ///< behind all lists: the unbounded, then those alone
+  };
+  Counting startCounting();
+  void startInserting();
   std::uint32_t insert(std::uint32_t index) { ///< the body's slot
     const std::uint32_t slot = starts_[list_[index]]++;
     order_[slot] = index;
@@ -58,30 +132,8 @@ public:
   }
 
 private:
-  struct Level {
-    double cellsPerPixel = 1.0;
-    std::uint32_t firstList = 0;                         ///< into starts_
-    std::uint32_t mask = 0;                              ///< number of its lists, a power of 2, minus 1
-    std::uint32_t leftmost = 0xffffffffU, rightmost = 0; ///< cells of its bodies, of the step before
-    std::uint32_t stride = 3;                            ///< lists from a cell to the one below
-
-    void note(double x) { ///< that a body is there
-      const std::uint32_t cell = cellOf(x, cellsPerPixel);
-      leftmost = cell < leftmost ? cell : leftmost;
-      rightmost = cell > rightmost ? cell : rightmost;
-    }
-  };
-
-  /// Row after row, so that what lies below is near in memory; any 3 × 3 cells have 9 different lists.
-  static std::uint32_t listOf(const Level& level, std::uint32_t cellX, std::uint32_t cellY) {
-    return (cellX + cellY * level.stride) & level.mask;
-  }
-  static std::uint32_t listAt(const Level& level, const Point& point) {
-    return listOf(level, cellOf(point.x, level.cellsPerPixel), cellOf(point.y, level.cellsPerPixel));
-  }
   void findColumns(std::span<const Body> bodies);
   static void chooseStride(Level& level);
-  void layOutLevels(std::span<const Body> bodies, std::span<const std::uint8_t> paired, double margin);
 
   /// Pairs of one level: each body with those behind it in its own cell, with the cell on its right and with
   /// the three below. A list holds cells far from each other too; their bodies are far, so no pair comes
@@ -91,19 +143,34 @@ private:
     const std::uint32_t* starts = starts_.data() + level.firstList;
     for (std::uint32_t list = 0; list <= level.mask; ++list) {
       const std::uint32_t end = starts[list + 1];
+      if (starts[list] == end) continue;
       const std::uint32_t below = listOf(level, list, 1);
-      const bool apart = below == 0 || below == level.mask; // the three lists below are not side by side
+      if (list == level.mask || below == 0 || below == level.mask) {
+        visitAtSeam(level, list, visit);
+        continue;
+      }
+      const std::uint32_t right = starts[list + 2];
+      const std::uint32_t firstBelow = starts[below - 1];
+      const std::uint32_t endBelow = starts[below + 2];
       for (std::uint32_t slot = starts[list]; slot < end; ++slot) {
-        visit(slot, slot + 1, starts[list < level.mask ? list + 2 : list + 1]);
-        if (list == level.mask) visit(slot, starts[0], starts[1]);
-        if (!apart) {
-          visit(slot, starts[below - 1], starts[below + 2]);
-          continue;
-        }
-        for (std::uint32_t i = 0; i < 3; ++i) {
-          const std::uint32_t other = (below + i - 1) & level.mask;
-          visit(slot, starts[other], starts[other + 1]);
-        }
+        visit(slot, slot + 1, right);
+        visit(slot, firstBelow, endBelow);
+      }
+    }
+  }
+
+  /// visitWithin() for a list whose neighbours are at both ends of the lists.
+  template <typename Visit>
+  [[gnu::noinline]] void visitAtSeam(const Level& level, std::uint32_t list, Visit& visit) const {
+    const std::uint32_t* starts = starts_.data() + level.firstList;
+    const std::uint32_t right = (list + 1) & level.mask;
+    const std::uint32_t below = listOf(level, list, 1);
+    for (std::uint32_t slot = starts[list]; slot < starts[list + 1]; ++slot) {
+      visit(slot, slot + 1, starts[list + 1]);
+      visit(slot, starts[right], starts[right + 1]);
+      for (std::uint32_t i = 0; i < 3; ++i) {
+        const std::uint32_t other = (below + i - 1) & level.mask;
+        visit(slot, starts[other], starts[other + 1]);
       }
     }
   }

@@ -12,10 +12,6 @@
 namespace offstage {
 namespace {
 
-/// Bodies that are not further apart than this share of the smaller one's half extent are in contact before
-/// they touch, so that they meet within the step; those that close in faster up to PileSlots::kMargin.
-constexpr double kSlack = 0.1;
-
 /// The smaller half extent.
 double thinness(const Body& body) {
   return body.shape == Shape::Circle ? body.radius : 0.5 * std::min(body.size.x(), body.size.y());
@@ -43,7 +39,7 @@ PileContacts::PileContacts(const WorldSetup& setup, const RuleTable& rules)
     friction_.add({place, material.friction, rubbing, body, other});
   }
   if (material.counts) {
-    impacts_.add({place, closing, material.restitution, material.p, body, other, before == nullptr});
+    impacts_.add({place, before == nullptr, false, closing, material.restitution, material.p, body, other});
   }
 }
 
@@ -73,7 +69,7 @@ PileContacts::PileContacts(const WorldSetup& setup, const RuleTable& rules)
 }
 
 void PileContacts::find(std::span<const Body> bodies, const PileSlots& slots, double dt, double warmth) {
-  blocks_.begin(slots.size() + std::size_t{1});
+  blocks_.begin(slots.size() + std::size_t{1}, slots.sameWeight());
   friction_.clear();
   impacts_.clear();
   const Step step{bodies,
@@ -82,78 +78,69 @@ void PileContacts::find(std::span<const Body> bodies, const PileSlots& slots, do
                   warmth,
                   slots.states().data(),
                   slots.halves().data(),
+                  slots.half(0),
                   slots.grid().order().data(),
                   rules_.groups() == 1 ? rules_.find(0, 0) : nullptr};
-  Candidates candidates; // NOLINT(cppcoreguidelines-pro-type-member-init): filled before they are read
-  slots.grid().forEachRun(
+  slots.sameHalf() ? collect<true>(step) : collect<false>(step);
+  for (const std::uint32_t slot : slots.atEdges()) considerWalls(step, slot);
+}
+
+template <bool SameHalf>
+void PileContacts::collect(const Step& step) {
+  NearSlots candidates; // NOLINT(cppcoreguidelines-pro-type-member-init): filled before they are read
+  const Nearness<SameHalf> nearness{step.states, step.halves, step.half};
+  step.slots.grid().forEachRun(
       [&](std::uint32_t slot) {
         return PairGrid::Point{step.states[slot].x, step.states[slot].y};
       },
       [&](std::uint32_t slot, std::uint32_t first, std::uint32_t end) {
-        constexpr std::uint32_t kAtOnce = 32;
-        for (; first < end; first += std::min(kAtOnce, end - first)) {
-          if (candidates.count + kAtOnce > Candidates::kMost) considerAll(step, candidates);
-          considerRun(step, slot, first, std::min(end, first + kAtOnce), candidates);
-        }
+        std::int64_t left = std::int64_t{end} - std::int64_t{first};
+        do {
+          if (candidates.count > NearSlots::kMost - 4) considerAll<SameHalf>(step, candidates);
+          const std::uint32_t there = (1U << std::min(left, std::int64_t{4})) - 1U;
+          candidates.add(slot, first, nearness.mask(slot, first) & there);
+          first += 4;
+          left -= 4;
+        } while (left > 0);
       });
-  considerAll(step, candidates);
-  for (std::uint32_t slot = 0; slot < slots.size(); ++slot) considerWalls(step, slot);
-}
-
-/// Most pairs of a run are too far apart; those that are not are picked out two at a time and without a
-/// branch.
-inline void PileContacts::considerRun(const Step& step, std::uint32_t slot, std::uint32_t first,
-                                      std::uint32_t end, Candidates& candidates) {
-  const SlotState* const states = step.states;
-  const double* const halves = step.halves;
-  const Two centre = load(&states[slot].x);
-  const Two half = halves[slot] + Two{};
-  std::uint32_t count = candidates.count;
-  for (std::uint32_t other = first; other < end; other += 2) {
-    const Two one = load(&states[other].x) - centre;
-    const Two two = load(&states[other + 1].x) - centre;
-    const TwoVectors squares = turned(one * one, two * two);
-    // At least what considerAll() asks of the two; infinite where one is a rectangle.
-    const Two far = (load(halves + other) + half) * (1.0 + 0.5 * PileSlots::kMargin);
-    const auto isNear = squares.x + squares.y < far * far; // −1 or 0
-    candidates.a[count] = slot;
-    candidates.b[count] = other;
-    count -= static_cast<std::uint32_t>(isNear[0]);
-    candidates.a[count] = slot;
-    candidates.b[count] = other + 1;
-    count -= static_cast<std::uint32_t>(isNear[1]);
-  }
-  // Of an odd number one was too many.
-  if (count > candidates.count && candidates.b[count - 1] == end) --count;
-  candidates.count = count;
+  considerAll<SameHalf>(step, candidates);
 }
 
 /// Adds those of the candidates that touch or may do so in the step, and forgets them all.
-void PileContacts::considerAll(const Step& step, Candidates& candidates) {
-  std::array<Meeting, Candidates::kMost> meetings; // NOLINT(cppcoreguidelines-pro-type-member-init)
+template <bool SameHalf>
+void PileContacts::considerAll(const Step& step, NearSlots& candidates) {
+  std::array<Meeting, NearSlots::kMost> meetings; // NOLINT(cppcoreguidelines-pro-type-member-init)
   std::size_t count = 0;
-  for (std::uint32_t i = 0; i < candidates.count; ++i) {
-    const std::uint32_t a = candidates.a[i];
-    const std::uint32_t b = candidates.b[i];
-    const double half = step.halves[a];
-    const double otherHalf = step.halves[b];
-    const double touch = half + otherHalf;
-    if (std::isinf(touch)) {
-      considerShapes(step, a, b);
-      continue;
+  const SlotState* const states = step.states;
+  candidates.a[candidates.count] = candidates.b[candidates.count] = 0; // beside the last of an odd number
+  for (std::uint32_t i = 0; i < candidates.count; i += 2) {
+    const std::array<std::uint32_t, 2> a{candidates.a[i], candidates.a[i + 1]};
+    const std::array<std::uint32_t, 2> b{candidates.b[i], candidates.b[i + 1]};
+    const Two half = SameHalf ? step.half + Two{} : Two{step.halves[a[0]], step.halves[a[1]]};
+    const Two otherHalf = SameHalf ? half : Two{step.halves[b[0]], step.halves[b[1]]};
+    const Two touch = half + otherHalf;
+    const TwoVectors from = turned(load(&states[a[0]].x), load(&states[a[1]].x));
+    const TwoVectors to = turned(load(&states[b[0]].x), load(&states[b[1]].x));
+    const Two dx = to.x - from.x;
+    const Two dy = to.y - from.y;
+    const Two distance = squareRoot(dx * dx + dy * dy);
+    const auto apart = distance > Two{};
+    const Two nx = select(apart, dx / distance, Two{1.0, 1.0});
+    const Two ny = select(apart, dy / distance, Two{});
+    const TwoVectors speed = turned(load(&states[a[0]].vx), load(&states[a[1]].vx));
+    const TwoVectors otherSpeed = turned(load(&states[b[0]].vx), load(&states[b[1]].vx));
+    const Two closing = (speed.x - otherSpeed.x) * nx + (speed.y - otherSpeed.y) * ny;
+    const Two way = distance - touch - (closing > Two{} ? closing : Two{}) * step.dt;
+    const auto isNear = way <= (half < otherHalf ? half : otherHalf) * PileSlots::kSlack;
+    for (std::uint32_t lane = 0; lane < 2; ++lane) {
+      if (!SameHalf && std::isinf(touch[lane])) {
+        if (i + lane < candidates.count) considerShapes(step, a[lane], b[lane]);
+        continue;
+      }
+      meetings[count] = {a[lane], b[lane], nx[lane], ny[lane], touch[lane], closing[lane], distance[lane]};
+      count +=
+          static_cast<std::size_t>(isNear[lane] != 0) & static_cast<std::size_t>(i + lane < candidates.count);
     }
-    const SlotState& first = step.states[a];
-    const SlotState& second = step.states[b];
-    const double dx = second.x - first.x;
-    const double dy = second.y - first.y;
-    const double distance = std::sqrt(dx * dx + dy * dy);
-    const bool apart = distance > 0.0;
-    const double nx = apart ? dx / distance : 1.0;
-    const double ny = apart ? dy / distance : 0.0;
-    const double closing = (first.vx - second.vx) * nx + (first.vy - second.vy) * ny;
-    meetings[count] = {a, b, nx, ny, touch, closing, distance};
-    const double way = distance - touch - std::max(closing, 0.0) * step.dt;
-    count += static_cast<std::size_t>(way <= kSlack * std::min(half, otherHalf));
   }
   candidates.count = 0;
   for (std::size_t i = 0; i < count; ++i) addPair(step, meetings[i]);
@@ -170,7 +157,7 @@ void PileContacts::considerShapes(const Step& step, std::uint32_t a, std::uint32
   if (!contact) return;
   const double closing = closingSpeed(*contact, first, second);
   const double gap = contact->distance - contact->touch;
-  if (gap - std::max(closing, 0.0) * step.dt > kSlack * smaller) return;
+  if (gap - std::max(closing, 0.0) * step.dt > PileSlots::kSlack * smaller) return;
   const SlotState& from = step.states[a];
   const SlotState& to = step.states[b];
   const double nx = contact->normal.x();
@@ -183,11 +170,6 @@ void PileContacts::considerWalls(const Step& step, std::uint32_t slot) {
   const PileSlots& slots = step.slots;
   const SlotState& state = step.states[slot];
   const Vec2 gained = slots.gainedInStep(slot);
-  const double wide = step.halves[slot] * (1.0 + kSlack);
-  const double farX = wide + (std::abs(state.vx) + std::abs(gained.x())) * step.dt;
-  const double farY = wide + (std::abs(state.vy) + std::abs(gained.y())) * step.dt;
-  if (state.x > farX && state.x < pane_.x() - farX && state.y > farY && state.y < pane_.y() - farY) return;
-  if (!(slots.weight(slot) > 0.0)) return;
   const Body& body = step.bodies[slots.bodyOf(slot)];
   for (std::uint32_t side = 0; side < 4; ++side) {
     const std::optional<double>& multiplier = walls_.restitution[side];
@@ -200,7 +182,7 @@ void PileContacts::considerWalls(const Step& step, std::uint32_t slot) {
     const double sign = lower ? -1.0 : 1.0; // of the way out
     const double closing = sign * body.velocity[axis];
     const double way = std::max(closing + std::max(sign * gained[axis], 0.0), 0.0) * step.dt;
-    if (!(gap - way <= kSlack * thinness(body))) continue;
+    if (!(gap - way <= PileSlots::kSlack * thinness(body))) continue;
     const double touch = -sign * (axis == 0 ? state.x : state.y) - gap; // the outside lies at 0
     PileContact contact{slot, slots.outside(), axis == 0 ? sign : 0.0, axis == 1 ? sign : 0.0, touch, 1.0,
                         0.0};

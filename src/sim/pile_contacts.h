@@ -4,6 +4,7 @@
 #include "src/sim/contact_blocks.h"
 #include "src/sim/contact_memory.h"
 #include "src/sim/event.h"
+#include "src/sim/near_slots.h"
 #include "src/sim/pile_friction.h"
 #include "src/sim/pile_impacts.h"
 #include "src/sim/pile_slots.h"
@@ -55,15 +56,10 @@ private:
     double dt;
     double warmth;
     const SlotState* states;
-    const double* halves;
+    const double* halves; ///< by slot; or all have the same:
+    double half;
     const std::uint32_t* order;
     const ContactRule* onlyRule; ///< null when there are several groups
-  };
-  /// Pairs of slots that are near each other and wait to be looked at.
-  struct Candidates {
-    static constexpr std::uint32_t kMost = 128;
-    std::uint32_t count = 0;
-    std::array<std::uint32_t, kMost> a, b;
   };
   /// Two bodies that come to a contact.
   struct Meeting {
@@ -79,9 +75,11 @@ private:
     double p;    ///< of its event
   };
 
-  static void considerRun(const Step& step, std::uint32_t slot, std::uint32_t first, std::uint32_t end,
-                          Candidates& candidates);
-  void considerAll(const Step& step, Candidates& candidates);
+  /// Collects the pairs that may be near. SameHalf: PileSlots::sameHalf().
+  template <bool SameHalf>
+  void collect(const Step& step);
+  template <bool SameHalf>
+  void considerAll(const Step& step, NearSlots& candidates);
   void considerShapes(const Step& step, std::uint32_t a, std::uint32_t b);
   void considerWalls(const Step& step, std::uint32_t slot);
   void addPair(const Step& step, const Meeting& meeting);

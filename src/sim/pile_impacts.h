@@ -22,16 +22,19 @@ class PileImpacts {
 public:
   struct Impact {
     ContactBlocks::Place place;
+    bool isNew;                ///< did not touch in the step before
+    bool touched;              ///< has had an impulse
     double closing;            ///< px/s, at the step's start
     double restitution;        ///< share of the closing speed that comes back
     double p;                  ///< of its event
     std::uint32_t body, other; ///< as ContactMemory names it
-    bool isNew;                ///< did not touch in the step before
-    bool touched = false;      ///< has had an impulse
   };
 
   void clear() { impacts_.clear(); }
-  void add(const Impact& impact) { impacts_.push_back(impact); }
+  void add(const Impact& impact) {
+    if (impacts_.size() == impacts_.capacity()) impacts_.reserve(impacts_.size() + impacts_.size() / 4 + 16);
+    impacts_.push_back(impact);
+  }
   /// Notes which contacts have an impulse now.
   void markTouched(const ContactBlocks& blocks);
   /// Gives those that touched their share of the closing speed back. Their impulses become 0: they part, so

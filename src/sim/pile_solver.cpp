@@ -49,12 +49,14 @@ void PileSolver::step(std::span<Body> bodies, Mover& mover, double t, double dt,
                       const Event& stamp, std::vector<Event>& events) {
   if (!(dt > 0.0 && std::isfinite(dt))) return;
   const double h = dt / substeps_;
-  slots_.gather(bodies, h, substeps_);
+  slots_.gather(bodies, dt, substeps_);
   // Impulses are those of a part, so they go with its length.
   contacts_.find(bodies, slots_, dt, lastPart_ > 0.0 ? std::min(h / lastPart_, 1.0) : 0.0);
   lastPart_ = h;
   const bool uniform = slots_.uniform();
+  active_.reserve(slots_.size() + std::size_t{1});
   active_.resize(slots_.size() + std::size_t{1});
+  free_.reserve(slots_.size());
   std::size_t active = 0;
   for (std::uint32_t slot = 0; slot < slots_.size();
        ++slot) { // without a branch: who touches cannot be foretold
@@ -153,38 +155,45 @@ void PileSolver::showVelocities(std::span<Body> bodies) {
 
 void PileSolver::finish(std::span<Body> bodies, double h, const Event& stamp, std::vector<Event>& events) {
   const std::uint32_t* const order = slots_.grid().order().data();
-  const bool uniform = slots_.uniform();
   const std::uint32_t size = slots_.size();
+  const Two upper = load(pane_.data());
+  PairGrid::Counting counting = slots_.countAtEnd();
   for (std::uint32_t slot = 0; slot < size; ++slot) {
-    constexpr std::uint32_t kAhead = 12; // bodies lie scattered
+    constexpr std::uint32_t kAhead = 24; // bodies lie scattered
     if (slot + kAhead < size) __builtin_prefetch(&bodies[order[slot + kAhead]], 1);
-    if (!(slots_.weight(slot) > 0.0)) continue;
-    Body& body = bodies[order[slot]];
-    const SlotState& state = slots_.states()[slot];
-    if (uniform && !contacts_.touches(slot)) { // it has had nothing to do with anybody
-      Vec2 velocity = body.velocity;
-      Vec2 position = body.position;
-      const Vec2 gained = slots_.gained(slot);
-      for (int part = 0; part < substeps_; ++part) {
-        velocity = velocity + gained;
-        position = position + velocity * h;
-      }
-      body.velocity = velocity;
-      body.position = position;
-    } else {
-      body.velocity = Vec2(state.vx, state.vy);
-      if (uniform) {
-        const Vec2 centre(state.x, state.y);
-        body.position = body.shape == Shape::Circle ? centre : Vec2(centre - body.size * 0.5);
-      }
+    const std::uint32_t index = order[slot];
+    Body& body = bodies[index];
+    if (slots_.weight(slot) > 0.0) {
+      settle(body, slot, h);
+      const Two half = slots_.half(slot) + Two{};
+      const Two position = load(body.position.data());
+      if ((maskOf(position > half) & maskOf(position < upper - half)) != 3)
+        holdToWalls(body, slot, stamp, events); // no circle that is wholly inside
     }
-    const double half = slots_.halves()[slot];
-    const Vec2& p = body.position;
-    if (p.x() > half && p.x() < pane_.x() - half && p.y() > half && p.y() < pane_.y() - half) {
-      continue; // a circle wholly inside
-    }
-    holdToWalls(body, slot, stamp, events);
+    counting.add(index, PairGrid::centreOf(body));
   }
+}
+
+/// Gives a body that can move what its slot has come to.
+inline void PileSolver::settle(Body& body, std::uint32_t slot, double h) {
+  const SlotState& state = slots_.states()[slot];
+  if (!slots_.uniform()) {
+    body.velocity = Vec2(state.vx, state.vy);
+    return;
+  }
+  // Who has had nothing to do with anybody is not in active_ and flies on from the step's start.
+  Two velocity = load(body.velocity.data());
+  Two position = load(body.position.data());
+  const Two gained = load(slots_.gained(slot).data());
+  for (int part = substeps_; part > 0; --part) {
+    velocity = velocity + gained;
+    position = position + velocity * h;
+  }
+  const auto touches = TwoBits{} - static_cast<std::int64_t>(contacts_.touches(slot));
+  Two place = load(&state.x);
+  if (body.shape == Shape::Rectangle) place = place - load(body.size.data()) * 0.5;
+  store(body.velocity.data(), select(touches, load(&state.vx), velocity));
+  store(body.position.data(), select(touches, place, position));
 }
 
 void PileSolver::holdToWalls(Body& body, std::uint32_t slot, const Event& stamp,

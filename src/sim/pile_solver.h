@@ -47,6 +47,8 @@ public:
 
   /// Bodies have gone since the last step. `removed`: by index, 1 for each of them.
   void keepOnly(std::span<const std::uint8_t> removed);
+  /// Somebody else has moved bodies since the last step.
+  void bodiesMoved() { slots_.bodiesMoved(); }
 
 private:
   // By semi-implicit Euler and without forces, where slots_.uniform():
@@ -57,6 +59,7 @@ private:
   void advance(std::span<Body> bodies, double h);
   void showVelocities(std::span<Body> bodies);
   void finish(std::span<Body> bodies, double h, const Event& stamp, std::vector<Event>& events);
+  void settle(Body& body, std::uint32_t slot, double h);
   void holdToWalls(Body& body, std::uint32_t slot, const Event& stamp, std::vector<Event>& events) const;
 
   Vec2 pane_ = Vec2::Zero();

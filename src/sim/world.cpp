@@ -173,6 +173,8 @@ void World::pileStep(const Tick& tick, StepObserver* observer) {
   pile_.step(bodies_, mover_, time_, tick.dt, tick.time, stamp, events_);
   if (observer != nullptr) observer->afterMove(bodies_, std::span(events_).subspan(before));
   if (sweeps) sweep(tick.dt, stamp);
+  if (sweeps || contacts_.hasRules()) pile_.bodiesMoved();
+  if (!contacts_.hasRules() && !anyRemovedOutside_) return;
   removed_.assign(bodies_.size(), 0);
   contacts_.solve(bodies_, removed_, stamp, events_);
   removeGone(stamp);

@@ -30,5 +30,5 @@ row() { # N STEPS RUNS
 row 1000 300 5
 row 10000 300 3
 ten_thousand=$last
-row 100000 "${1:-60}" 1
+row 100000 "${1:-60}" 3
 awk -v a="$last" -v b="$ten_thousand" 'BEGIN { printf "from N = 10000 to 100000 a step of Offstage takes %.1f times as long\n", a / b }'
