@@ -1,5 +1,7 @@
 #include "render/output/chunk_plan.h"
 #include "render/output/chunked_output.h"
+#include "render/output/input_file.h"
+#include "render/output/libav.h"
 #include "render/output/verify.h"
 #include "tests/support/child.h"
 #include "tests/support/output_writer.h"
@@ -14,6 +16,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <sys/resource.h>
 #include <vector>
@@ -421,6 +424,49 @@ TEST(VerifyVideo, FindsTruncatedDamagedAndForeignFiles) {
   }
   EXPECT_THAT(errorOf([&] { verifyVideo(dir / "none", expectedOf(64, 48, 20, 30), "x"); }),
               HasSubstr("cannot be opened"));
+  av_log_set_level(logLevel);
+}
+
+/// A packet of a video file.
+struct PacketPlace {
+  std::size_t begin = 0, size = 0; ///< bytes
+  bool referredTo = false;         ///< H.264's nal_ref_idc (ITU-T H.264, 7.4.1)
+};
+std::vector<PacketPlace> packetsOf(const fs::path& file) {
+  libav::InputContext format;
+  if (libav::openInput(file, format) < 0) throw std::runtime_error("the video does not open");
+  const libav::Packet packet = libav::makePacket();
+  std::vector<PacketPlace> places;
+  for (; av_read_frame(format.get(), packet.get()) >= 0; av_packet_unref(packet.get())) {
+    PacketPlace place{static_cast<std::size_t>(packet->pos), static_cast<std::size_t>(packet->size)};
+    for (int at = 0; at + 4 < packet->size;) { // units with their lengths before them
+      const std::uint8_t* unit = packet->data + at;
+      place.referredTo = place.referredTo || ((unit[4] & 0x1F) <= 5 && (unit[4] & 0x60) != 0);
+      at += 4 + ((unit[0] << 24) | (unit[1] << 16) | (unit[2] << 8) | unit[3]);
+    }
+    places.push_back(place);
+  }
+  return places;
+}
+
+TEST(VerifyVideo, FindsDamageInEveryFrameThatTheLastOneRestsOn) {
+  const int logLevel = av_log_get_level();
+  av_log_set_level(AV_LOG_QUIET);
+  const TempDir dir;
+  writeFixed(dir / "a.mp4", formatOf(160, 120, 30.0), 20);
+  const std::string whole = test::readFile(dir / "a.mp4");
+  int frames = 0;
+  for (const PacketPlace& place : packetsOf(dir / "a.mp4")) {
+    if (!place.referredTo) continue;
+    ++frames;
+    std::string damaged = whole;
+    std::fill_n(damaged.begin() + static_cast<std::ptrdiff_t>(place.begin + 8), place.size - 8, '\x55');
+    test::writeFile(dir / "damaged", damaged);
+    EXPECT_THAT(errorOf([&] { verifyVideo(dir / "damaged", expectedOf(160, 120, 20, 30), "a.mp4"); }),
+                StartsWith("75: "))
+        << "frame in bytes " << place.begin << " to " << place.begin + place.size;
+  }
+  EXPECT_GT(frames, 5) << "of 20 that others refer to";
   av_log_set_level(logLevel);
 }
 

@@ -20,11 +20,11 @@ struct ExpectedVideo {
   bool hasSound = false;      ///< the file may last a packet of sound longer
 };
 
-/// Reopens a video file, reads all of it, decodes its first and its last frame (H.264: the last one without
-/// the frames between it and the last key frame), and compares what it finds with what it must be: codec,
-/// profile, pixel format and colour (H.264: High, yuv420p, BT.709 in limited range, chroma sited left); the
-/// number of frames, their size, the time of the first and the last, and the duration (to one tick of the
-/// file, or a millisecond where that is finer). Throws Error(Transient) that lists every difference; `name`
+/// Reopens a video file, reads all of it, decodes its first frame and its last with every frame since the
+/// last key frame that others refer to, and compares what it finds with what it must be: codec, profile,
+/// pixel format and colour (H.264: High, yuv420p, BT.709 in limited range, chroma sited left); the number of
+/// frames, their size, the time of the first and the last, and the duration (to one tick of the file, or a
+/// millisecond where that is finer). Throws Error(Transient) that lists every difference; `name`
 /// is what messages call the file.
 void verifyVideo(const std::filesystem::path& file, const ExpectedVideo& expected,
                  const std::filesystem::path& name);
