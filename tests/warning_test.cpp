@@ -105,6 +105,10 @@ TEST_F(Warned, StrictMakesNothingAndLeavesWhatIsThere) {
       {"render", "shot.toml", "--poster", "x.png", "--to", "1", "--strict"}, // of the whole video's middle
       {"still", "shot.toml", "--at", "6", "-o", "x.png", "--strict"},
       {"trace", "shot.toml", "-o", "x.csv", "--events", "x.jsonl", "--strict"},
+      {"trace", "shot.toml", "-o", "-",
+       "--strict"}, // rows of 300 frames stood in the pipe before the warning
+      {"trace", "shot.toml", "--events", "-", "-o", "x.csv", "--strict"},
+      {"trace", "shot.toml", "--summary", "--strict"},
       {"bundle", "shot.toml", "-o", "b", "--strict"},
       {"bundle", "shot.toml", "-o", "b", "--to", "1", "--strict"}};
   for (const char* name : {"x.mp4", "x.raw", "x000.png", "x.txt", "x.png", "x.csv", "x.jsonl"})
