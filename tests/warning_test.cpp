@@ -208,7 +208,7 @@ response = )") + response + "\n");
     return run({"trace", "pushed.toml", "-o", "t.csv"}).err;
   };
   EXPECT_THAT(
-      traced("\"slide\""),
+      traced("\"slide\"\nseparate = true\napproaching_only = false"),
       HasSubstr("it went through the pane's lower edge and is behind it; a \"slide\" pushes it after the "
                 "walls have held it: response = \"bounce\" does not [crossing]\n"));
   EXPECT_EQ(traced("\"bounce\""), "");
