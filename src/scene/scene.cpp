@@ -89,7 +89,8 @@ void parseTables(SceneBuilder& builder, const TomlValue& root, const SceneOverri
 }
 
 /// A scene from a tree, but for its panels.
-SceneBuilder parseWhole(const TomlValue& root, const std::filesystem::path& file, const SceneOverrides& overrides) {
+SceneBuilder parseWhole(const TomlValue& root, const std::filesystem::path& file,
+                        const SceneOverrides& overrides) {
   SceneBuilder builder(file);
   parseTables(builder, root, overrides);
   builder.errors.throwIfAny();
