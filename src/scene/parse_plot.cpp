@@ -37,7 +37,7 @@ std::string labelOf(const std::vector<NamedProbe>& probes) {
       std::ranges::all_of(probes, [&](const NamedProbe& probe) { return probe.unit == unit; });
   const bool oneName =
       std::ranges::all_of(probes, [&](const NamedProbe& probe) { return probe.name == probes.front().name; });
-  const std::string name = oneName ? probes.front().name : "";
+  std::string name = oneName ? probes.front().name : "";
   if (!oneUnit || unit.empty()) return name;
   return name.empty() ? unit : fmt::format("{} ({})", name, unit);
 }
