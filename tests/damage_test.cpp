@@ -322,6 +322,35 @@ TEST(Damage, ChangesBelowAPlainBodyAreNotSeen) {
   EXPECT_TRUE(frame.damage.empty());
 }
 
+/// Pieces of straight paths that grow at one end and shrink at the other, as trails of bodies without
+/// acceleration do: only their ends change.
+TEST(Damage, OfALineThatGrowsIsWhatHasGrown) {
+  constexpr double kFaster = 1.5; // than its beginning, the line's end
+  for (int k = 0; k < 24; ++k) {
+    const double turn = 0.26 * k + 0.013;
+    const Vec2 ahead(std::cos(turn), std::sin(turn));
+    const Vec2 start = Vec2(330.0, 250.0) - 150.0 * ahead;
+    const double width = 0.7 + 0.5 * k;
+    BothWays both(660, 500);
+    std::int64_t damaged = 0;
+    for (int frame = 0; frame < 30; ++frame) {
+      Picture picture = blankPicture(660, 500, {245, 240, 230, 255});
+      const std::array<Vec2, 2> points{start + 2.0 * frame * ahead,
+                                       start + (180.0 + kFaster * 2.0 * frame) * ahead};
+      Pen(picture, width, {20, 90, 200, static_cast<std::uint8_t>(k % 2 == 0 ? 255 : 140)})
+          .path(points, {}, {.roundFirst = k % 3 == 0, .roundLast = false});
+      ASSERT_EQ(both.draw(picture), "") << "direction " << k << ", frame " << frame;
+      if (frame == 0) continue;
+      ASSERT_NE(both.frame().base, 0U);
+      for (const PixelRect& rect : both.frame().damage)
+        damaged += std::int64_t{rect.right - rect.left} * (rect.bottom - rect.top);
+    }
+    // Without this the whole line: at least 150 px by its width and a tile.
+    const double most = 2.0 * std::pow(2.0 * width + 34.0, 2.0);
+    EXPECT_LT(static_cast<double>(damaged) / 29.0, most) << "px a frame, direction " << k;
+  }
+}
+
 TEST(Damage, AnotherFrameObjectGetsAllPixels) {
   Picture picture = blankPicture(640, 480);
   picture.primitives = {disc(20.0, 20.0, 9.0, {10, 20, 30, 255})};

@@ -166,7 +166,7 @@ TEST(Plot, ACurveDoesNotDependOnTheFramesDrawnBefore) {
   const TextPainter texts(viewport);
   const auto drawn = [](const PlotSet& plots, std::int64_t frame) {
     Picture picture;
-    plots.draw(picture, frame);
+    plots.draw(picture, {&frame, 1});
     std::vector<std::array<double, 5>> pieces;
     for (const Primitive& piece : picture.primitives)
       pieces.push_back(

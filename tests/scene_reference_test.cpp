@@ -118,6 +118,7 @@ Entries baseOf(const std::string& table) {
       {"golden", {{"at", "[0.5]"}}},
       {"ruler", {{"from", "[10, 20]"}, {"to", "[30, 40]"}}},
       {"plot", {{"y", "\"energy\""}}},
+      {"panels.plot", {{"y", "\"energy\""}, {"area", "[10, 20, 300, 200]"}}},
       {"section", {{"title", "\"b\""}, {"start", "1"}}},
       {"caption", {{"text", "\"a\""}, {"from", "0.25"}, {"to", "0.75"}}},
       {"pause", {{"at", "0.5"}, {"for", "1"}}},
@@ -204,7 +205,9 @@ std::string sceneWith(const std::string& table, const Entries& entries) {
       "body",  "bodies",       "spawn", "launch", "collide", "trail", "ghost",   "outline", "mark",
       "arrow", "contact_mark", "ruler", "panel",  "plot",    "text",  "section", "pause",   "speed"};
   const bool many = tables.contains(table);
-  if (table == "panels") return body + "[[panel]]\n[[panel]]\n[panels]\n" + lines;
+  const std::string two = "[[panel]]\n[[panel]]\n";
+  if (table == "panels") return body + two + "[panels]\n" + lines;
+  if (table == "panels.plot") return body + two + "[[panels.plot]]\n" + lines;
   return body + (many ? "[[" + table + "]]\n" : "[" + table + "]\n") + lines;
 }
 
@@ -241,6 +244,7 @@ std::string valueOf(const DocumentedKey& key) {
       {"integer or list", "[5, 6]"},
       {"[x, y] or name", "\"b\""},
       {"value or list", "[\"b.x\", \"t\"]"},
+      {"panel or list", "[2, 1]"},
       {"string or list", "\"b\""},
       {"colour or list", "[\"red\"]"},
       {"name or list", "[\"b\", \"bodies\"]"},
@@ -289,6 +293,7 @@ std::string valueOf(const DocumentedKey& key) {
   if (key.type == "file") return "\"image.png\"";
   if (key.type == "table" && key.key == "stroke") return "{ width = 2 }";
   if (key.type == "tables") {
+    if (key.table == "panels" && key.key == "plot") return "[{ " + tableOf("panels.plot") + " }]";
     if (key.key != "collide") return "[{ " + tableOf(key.key) + " }]";
     // A rule needs a group that has a body.
     return "[{ between = [\"bodies\", \"bodies\"] }]\nbody = [{ center = [1, 2], radius = 3 }]";

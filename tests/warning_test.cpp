@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -105,6 +106,10 @@ TEST_F(Warned, StrictMakesNothingAndLeavesWhatIsThere) {
       {"render", "shot.toml", "--poster", "x.png", "--to", "1", "--strict"}, // of the whole video's middle
       {"still", "shot.toml", "--at", "6", "-o", "x.png", "--strict"},
       {"trace", "shot.toml", "-o", "x.csv", "--events", "x.jsonl", "--strict"},
+      {"trace", "shot.toml", "-o", "-",
+       "--strict"}, // rows of 300 frames stood in the pipe before the warning
+      {"trace", "shot.toml", "--events", "-", "-o", "x.csv", "--strict"},
+      {"trace", "shot.toml", "--summary", "--strict"},
       {"bundle", "shot.toml", "-o", "b", "--strict"},
       {"bundle", "shot.toml", "-o", "b", "--to", "1", "--strict"}};
   for (const char* name : {"x.mp4", "x.raw", "x000.png", "x.txt", "x.png", "x.csv", "x.jsonl"})
@@ -142,6 +147,71 @@ TEST_F(Warned, WhatASceneIsMeantToShowIsNoWarning) {
   const ProcessResult trace = run({"trace", "shot.toml", "-o", "t.csv", "--strict"});
   EXPECT_EQ(trace.status, 0);
   EXPECT_EQ(trace.err, "");
+}
+
+/// The same in a world of the contact solver.
+std::string solved(const std::string& keys, const std::string& clock) {
+  std::string text = kTunnel;
+  text.replace(text.find("gravity"), 0, "contacts = \"solver\"\n");
+  return text.replace(text.find("speed"), 0, keys + "\n") + "[clock]\n" + clock + "\n";
+}
+
+TEST_F(Warned, TheContactSolverIsHelpedByWhatTheWarningAdvises) {
+  const auto traced = [&](const std::string& keys, const std::string& clock) {
+    dir_.write("shot.toml", solved(keys, clock));
+    return run({"trace", "shot.toml", "-o", "t.csv", "--events", "-"});
+  };
+  const std::string says =
+      "shot.toml: warning: frame 300 (5 s), body 1 of \"shots\": it went through body 0 in one step without "
+      "touching it: 80 px, where both together are 8 px wide; the contact solver looks for contacts once a "
+      "step, whatever its substeps: continuous = true on one of them makes its whole way count, or [clock] ";
+  const std::string shorter = " shortens the steps [crossing]\n";
+  EXPECT_EQ(traced("", "").err, says + "step = \"clamped\" with dt = 0.000794" + shorter); // (1/60)/21
+  EXPECT_EQ(traced("", "substeps = 21").err, says + "step = \"clamped\" with dt = 0.000794" + shorter)
+      << "the lecture's advice is none here";
+  EXPECT_EQ(traced("", "step = \"accumulator\"").err, says + "dt = 0.000794" + shorter);
+
+  const std::vector<std::pair<const char*, const char*>> advice{
+      {"continuous = true", ""},
+      {"", "step = \"clamped\"\ndt = 0.000794"},
+      {"", "step = \"accumulator\"\ndt = 0.000794"}};
+  for (const auto& [keys, clock] : advice) {
+    const ProcessResult followed = traced(keys, clock);
+    EXPECT_EQ(followed.err, "") << keys << clock;
+    EXPECT_EQ(count(followed.out, "collide"), 1U) << keys << clock << '\n' << followed.out;
+  }
+}
+
+TEST_F(Warned, ASlideThatPushesThroughAnEdgeOfTheContactSolverIsToldSo) {
+  const auto traced = [&](const char* response) {
+    dir_.write("pushed.toml", std::string(R"(
+duration = 0.2
+[frame]
+size = [96, 48]
+[world]
+gravity = [0, 0]
+contacts = "solver"
+[walls]
+all = 1
+[[body]]
+group = "rock"
+center = [48, 30]
+radius = 30
+fixed = true
+[[body]]
+center = [48, 42]
+radius = 4
+velocity = [0, 30]
+[[collide]]
+between = ["rock", "bodies"]
+response = )") + response + "\n");
+    return run({"trace", "pushed.toml", "-o", "t.csv"}).err;
+  };
+  EXPECT_THAT(
+      traced("\"slide\"\nseparate = true\napproaching_only = false"),
+      HasSubstr("it went through the pane's lower edge and is behind it; a \"slide\" pushes it after the "
+                "walls have held it: response = \"bounce\" does not [crossing]\n"));
+  EXPECT_EQ(traced("\"bounce\""), "");
 }
 
 TEST_F(Warned, APanelIsNamedAndTheSceneItselfIsNotWatched) {

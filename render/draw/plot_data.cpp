@@ -3,6 +3,7 @@
 #include "src/sim/error.h"
 #include "src/sim/world.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace offstage {
@@ -31,7 +32,8 @@ Snapshot snapshotOfReplay(const ReplayMotion& motion) {
 PlotData::PlotData(const std::vector<Plot>& plots, const PlotRun& run) {
   const auto frames = static_cast<std::size_t>(run.clock.steps()) + 1;
   const Point none{std::nan(""), std::nan("")};
-  for (const Plot& plot : plots) points_.emplace_back(plot.curves.size(), std::vector<Point>(frames, none));
+  for (const Plot& plot : plots) points_.emplace_back(plot.curves.size(), Points(frames, none));
+  if (std::ranges::all_of(plots, [](const Plot& plot) { return plot.curves.empty(); })) return;
   const auto note = [&](const Snapshot& snapshot) {
     const auto frame = static_cast<std::size_t>(snapshot.frame);
     for (std::size_t i = 0; i < plots.size(); ++i) {

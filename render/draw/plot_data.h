@@ -25,17 +25,18 @@ public:
     double x;
     double y;
   };
+  using Points = std::vector<Point>; ///< by frame
 
   /// Goes through the whole run. Values after a step that cannot be taken are NaN; the run itself will tell.
   PlotData(const std::vector<Plot>& plots, const PlotRun& run);
 
   /// By frame, of a curve of a plot.
-  [[nodiscard]] const std::vector<Point>& points(std::size_t plot, std::size_t curve) const {
+  [[nodiscard]] const Points& points(std::size_t plot, std::size_t curve) const {
     return points_[plot][curve];
   }
 
 private:
-  std::vector<std::vector<std::vector<Point>>> points_; ///< by plot, by curve, by frame
+  std::vector<std::vector<Points>> points_; ///< by plot, by curve
 };
 
 } // namespace offstage

@@ -49,9 +49,9 @@ void append(Picture& picture, const Picture& part) {
   picture.clips.insert(picture.clips.end(), part.clips.begin(), part.clips.end());
 }
 
-PlotPainter::PlotPainter(const Plot& plot, std::size_t number, const PlotData& data, const Viewport& viewport,
-                         const TextPainter& texts)
-    : plot_(plot), number_(number), data_(data), viewport_(viewport), texts_(texts) {
+PlotPainter::PlotPainter(const Plot& plot, std::vector<const PlotData::Points*> curves,
+                         const Viewport& viewport, const TextPainter& texts)
+    : plot_(plot), curves_(std::move(curves)), viewport_(viewport), texts_(texts) {
   makeAxes();
   layOut();
   drawFrame(still_);
@@ -61,8 +61,8 @@ PlotPainter::PlotPainter(const Plot& plot, std::size_t number, const PlotData& d
 void PlotPainter::makeAxes() {
   Extent x;
   Extent y;
-  for (std::size_t curve = 0; curve < plot_.curves.size(); ++curve) {
-    for (const PlotData::Point& point : data_.points(number_, curve)) {
+  for (const PlotData::Points* points : curves_) {
+    for (const PlotData::Point& point : *points) {
       x.add(point.x, plot_.x.log);
       y.add(point.y, plot_.y.log);
     }
@@ -180,7 +180,7 @@ void PlotPainter::drawLegend(Picture& picture) const {
 }
 
 void PlotPainter::grow(Grown& grown, std::size_t curve, std::size_t frames) const {
-  const std::vector<PlotData::Point>& points = data_.points(number_, curve);
+  const PlotData::Points& points = *curves_[curve];
   const std::size_t end = std::min(frames, points.size());
   if (end < grown.frames) grown = Grown{.open = PathSimplifier(kTolerance)};
   const double reach = 4.0 * length(inner_.high - inner_.low); // far enough out to be clipped
@@ -206,35 +206,42 @@ void PlotPainter::drawCurve(Picture& picture, std::size_t curve, std::size_t fra
   pen.path(grown.open.path());
 }
 
-void PlotPainter::draw(Picture& picture, std::int64_t frame) const {
+void PlotPainter::draw(Picture& picture, std::span<const std::int64_t> frames) const {
   append(picture, still_);
-  const double scale = viewport_.scale;
-  const auto present = static_cast<std::size_t>(frame);
   const auto clip = static_cast<std::int32_t>(picture.clips.size());
   // A line on an axis is seen in its full width.
-  const int edge = static_cast<int>(std::ceil(plot_.width * scale));
+  const int edge = static_cast<int>(std::ceil(plot_.width * viewport_.scale));
   picture.clips.push_back({static_cast<int>(inner_.low.x()) - edge, static_cast<int>(inner_.low.y()) - edge,
                            static_cast<int>(inner_.high.x()) + edge,
                            static_cast<int>(inner_.high.y()) + edge});
-  for (std::size_t curve = 0; curve < plot_.curves.size(); ++curve) {
-    const std::size_t all = data_.points(number_, curve).size();
-    drawCurve(picture, curve, plot_.whole ? all : present + 1, clip);
-  }
-  if (plot_.cursor) {
-    const double line = std::max(std::round(0.08 * plot_.textSize * scale), 1.0);
-    for (std::size_t curve = 0; curve < plot_.curves.size(); ++curve) {
-      const auto& points = data_.points(number_, curve);
-      if (present >= points.size()) continue;
-      const Vec2 at = place(points[present]);
-      if (plot_.overTime && curve == 0 && std::isfinite(at.x())) {
-        Pen(picture, line, faded(bytes(plot_.ink), 0.5), clip)
-            .line({sharp(at.x(), line), inner_.low.y()}, {sharp(at.x(), line), inner_.high.y()});
-      }
-      if (std::isfinite(at.x()) && std::isfinite(at.y()))
-        Pen(picture, line, bytes(plot_.curves[curve].color), clip).disc(at, 1.8 * plot_.width * scale);
-    }
-  }
+  for (std::size_t curve = 0; curve < curves_.size(); ++curve)
+    drawCurve(picture, curve,
+              plot_.whole ? curves_[curve]->size() : static_cast<std::size_t>(frames[curve]) + 1, clip);
+  if (plot_.cursor) drawPresent(picture, frames, clip);
   if (plot_.legend) drawLegend(picture);
+}
+
+/// A disc at each curve's present, over a line at the latest of them where they are over time.
+void PlotPainter::drawPresent(Picture& picture, std::span<const std::int64_t> frames,
+                              std::int32_t clip) const {
+  const double line = std::max(std::round(0.08 * plot_.textSize * viewport_.scale), 1.0);
+  std::vector<Vec2> discs;
+  Extent x;
+  for (std::size_t curve = 0; curve < curves_.size(); ++curve) {
+    const PlotData::Points& points = *curves_[curve];
+    const auto present = static_cast<std::size_t>(frames[curve]);
+    discs.push_back(place(present < points.size() ? points[present] : PlotData::Point{std::nan(""), 0.0}));
+    x.add(discs.back().x(), false);
+  }
+  if (plot_.overTime && std::isfinite(x.greatest)) {
+    const double at = sharp(x.greatest, line);
+    Pen(picture, line, faded(bytes(plot_.ink), 0.5), clip).line({at, inner_.low.y()}, {at, inner_.high.y()});
+  }
+  for (std::size_t curve = 0; curve < curves_.size(); ++curve) {
+    if (discs[curve].allFinite())
+      Pen(picture, line, bytes(plot_.curves[curve].color), clip)
+          .disc(discs[curve], 1.8 * plot_.width * viewport_.scale);
+  }
 }
 
 } // namespace offstage

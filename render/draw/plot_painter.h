@@ -8,7 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <span>
 #include <vector>
 
 namespace offstage {
@@ -16,12 +16,12 @@ namespace offstage {
 /// One plot, ready to be drawn in any frame of its run.
 class PlotPainter {
 public:
-  /// `number`: of the plot in the scene. `data` must outlive it. Throws as TextPainter::require().
-  PlotPainter(const Plot& plot, std::size_t number, const PlotData& data, const Viewport& viewport,
+  /// `curves`: the points of each, which must outlive it. Throws as TextPainter::require().
+  PlotPainter(const Plot& plot, std::vector<const PlotData::Points*> curves, const Viewport& viewport,
               const TextPainter& texts);
 
-  /// The plot with the frame `frame` as its present.
-  void draw(Picture& picture, std::int64_t frame) const;
+  /// The plot with these frames as the present of each curve.
+  void draw(Picture& picture, std::span<const std::int64_t> frames) const;
 
 private:
   struct Inner {
@@ -41,14 +41,14 @@ private:
   void drawLegend(Picture& picture) const;
   void grow(Grown& grown, std::size_t curve, std::size_t frames) const;
   void drawCurve(Picture& picture, std::size_t curve, std::size_t frames, std::int32_t clip) const;
+  void drawPresent(Picture& picture, std::span<const std::int64_t> frames, std::int32_t clip) const;
   [[nodiscard]] Vec2 place(const PlotData::Point& point) const;
   [[nodiscard]] TextLook textLook(NinePosition anchor, double size) const;
   void text(Picture& picture, const std::string& text, const Vec2& outputPoint, NinePosition anchor,
             double size, bool upwards = false) const;
 
   Plot plot_;
-  std::size_t number_;
-  const PlotData& data_;
+  std::vector<const PlotData::Points*> curves_;
   Viewport viewport_;
   TextPainter texts_;
   Axis x_{0.0, 1.0, false};

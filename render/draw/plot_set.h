@@ -6,11 +6,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 
 namespace offstage {
 
-/// The plots of a scene. Their values are found when they are first drawn, so that a scene that is only
-/// checked runs nothing.
+/// The plots of a scene, of one with panels those over the whole picture. Their values are found when they
+/// are first drawn, so that a scene that is only checked runs nothing.
 class PlotSet {
 public:
   /// Throws as TextPainter::require() for a title or label that cannot be set.
@@ -19,16 +20,16 @@ public:
   PlotSet(const PlotSet&) = delete;
   PlotSet& operator=(const PlotSet&) = delete;
 
-  /// All plots with `frame` as their present.
-  void draw(Picture& picture, std::int64_t frame) const;
+  /// All plots with these frames as the present: of the scene's world, or of each panel's.
+  void draw(Picture& picture, std::span<const std::int64_t> frames) const;
 
 private:
-  struct Run; ///< what the values come from
+  struct Runs; ///< what the values come from
   struct Made;
 
   Viewport viewport_;
   TextPainter texts_;
-  std::unique_ptr<const Run> run_;           ///< null: no plots
+  std::unique_ptr<const Runs> runs_;         ///< null: no plots
   mutable std::unique_ptr<const Made> made_; ///< null: not drawn yet; the same whenever it is made
 };
 

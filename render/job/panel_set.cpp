@@ -136,6 +136,12 @@ void PanelSet::draw(Picture& picture) const {
   drawCaptions(picture);
 }
 
+std::vector<std::int64_t> PanelSet::frames() const {
+  std::vector<std::int64_t> frames;
+  for (const auto& world : worlds_) frames.push_back(world->frame());
+  return frames;
+}
+
 std::uint64_t PanelSet::stateHash() const {
   Fingerprint hash;
   for (const auto& world : worlds_) hash.add(static_cast<std::int64_t>(world->stateHash()));

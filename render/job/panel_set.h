@@ -33,7 +33,8 @@ public:
   void keepMoment();
   /// Adds all worlds to a picture, each inside its pane.
   void draw(Picture& picture) const;
-  [[nodiscard]] std::uint64_t stateHash() const; ///< of all worlds
+  [[nodiscard]] std::vector<std::int64_t> frames() const; ///< the present one of each world
+  [[nodiscard]] std::uint64_t stateHash() const;          ///< of all worlds
   [[nodiscard]] std::uint64_t fingerprint() const;
   [[nodiscard]] const SceneSource& first() const { return *worlds_.front(); }
 

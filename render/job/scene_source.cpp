@@ -204,6 +204,7 @@ void SceneSource::paint(Picture& picture) const {
   const Snapshot now = snapshot();
   if (panels_ != nullptr) {
     panels_->draw(picture);
+    plots_.draw(picture, panels_->frames());
     texts_.draw(picture, now, videoTime(), painter_.viewport());
     return;
   }
@@ -211,7 +212,7 @@ void SceneSource::paint(Picture& picture) const {
   overlays_.paint(picture, OverlayLayer::Behind, overlaid);
   drawBodies(picture);
   overlays_.paint(picture, OverlayLayer::Front, overlaid);
-  plots_.draw(picture, now.frame);
+  plots_.draw(picture, {&now.frame, 1});
   texts_.draw(picture, now, videoTime(), painter_.viewport());
 }
 

@@ -1,6 +1,7 @@
 #include "render/raster/damage.h"
 
 #include "render/raster/cover.h"
+#include "render/raster/instance_parts.h"
 
 #include <algorithm>
 #include <bit>
@@ -124,6 +125,33 @@ private:
   bool hides_ = false;     ///< and nothing below it is seen there
 };
 
+/// Whether two layers are pieces of one straight line in one colour, which differ at most in where they end.
+/// The shader computes a pixel from the line and tells by the ends only whose it is, so what both hold is the
+/// same to the bit.
+bool areOfOneLine(const Layer& before, const Layer& after) {
+  return before.visible && after.visible && before.program.coverage == Coverage::Strip &&
+         after.program.coverage == Coverage::Strip && before.instance.outer == after.instance.outer &&
+         before.instance.color == after.instance.color && before.clip == after.clip;
+}
+
+/// The change of such a piece: of one that grows, what has grown.
+void markEnds(const Side& before, const Side& after, TileSet& tiles) {
+  const auto mark = [&](const Vec2& from, const Vec2& to) {
+    Primitive between = *after.primitive;
+    between.low = from;
+    between.high = to;
+    // A cut that is no right angle reaches farther than the ends, by less than the width of the line.
+    const Vec2 reach = Vec2::Constant(2.0 * between.outer + 4.0);
+    const PixelRect near = touchedPixels(from.cwiseMin(to) - reach, from.cwiseMax(to) + reach,
+                                         united(before.bounds, after.bounds));
+    Marker({}, {&between, near, after.clip}, tiles).mark();
+  };
+  const Primitive& x = *before.primitive;
+  const Primitive& y = *after.primitive;
+  if (x.low != y.low || x.innerLow != y.innerLow) mark(x.low, y.low);
+  if (x.high != y.high || x.innerHigh != y.innerHigh) mark(x.high, y.high);
+}
+
 /// Takes away the tiles that an unchanged plain layer hides.
 void hideUnder(const DisplayList& list, std::size_t index, TileSet& tiles) {
   constexpr int kTile = TileSet::kTile;
@@ -165,7 +193,14 @@ void findDamage(const DisplayList& before, const DisplayList& now, const std::ve
   for (std::int32_t i = changes.empty() ? total : changes.front().position; i <= total; ++i) {
     bool changed = false;
     for (; change != changes.end() && change->position == i; ++change) {
-      Marker(sideOf(before, change->before), sideOf(now, change->after), tiles).mark();
+      const Side was = sideOf(before, change->before);
+      const Side is = sideOf(now, change->after);
+      if (was.primitive != nullptr && is.primitive != nullptr &&
+          areOfOneLine(before.layers[static_cast<std::size_t>(change->before)],
+                       now.layers[static_cast<std::size_t>(change->after)]))
+        markEnds(was, is, tiles);
+      else
+        Marker(was, is, tiles).mark();
       changed = changed || change->after == i;
     }
     if (changed || i == total) continue;

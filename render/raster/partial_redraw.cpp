@@ -27,13 +27,29 @@ Instance wholeInstance(Rgba8 premultiplied) {
   return instance;
 }
 
-/// Cuts the part of `square` that lies in `limits` out of a layer. Nothing is left of it: an empty rectangle.
-PixelRect cut(const PixelRect& square, const PixelRect& limits, int largestPoint, ProgramKind& program,
-              Instance& instance) {
-  const PixelRect rect = common(square, limits);
-  const int side = rect.right - rect.left;
-  const bool point = side == rect.bottom - rect.top && side <= largestPoint;
-  program.footprint = point ? Footprint::Point : Footprint::Quad;
+/// Where it is best to shade `part`, which lies in `rect`: there alone, or in a square around it, which costs
+/// more pixels but may be a point.
+PixelRect cheapest(const PixelRect& part, const PixelRect& rect, int largestPoint, ProgramKind& program) {
+  const int side = std::max(part.right - part.left, part.bottom - part.top);
+  const int left = std::max(std::min(part.left, rect.right - side), rect.left);
+  const int top = std::max(std::min(part.top, rect.bottom - side), rect.top);
+  const PixelRect square{left, top, left + side, top + side};
+  ProgramKind point = program;
+  point.footprint = Footprint::Point;
+  program.footprint = Footprint::Quad;
+  if (side > largestPoint || !holds(rect, square) || cost(point, square) > cost(program, part)) return part;
+  program = point;
+  return square;
+}
+
+/// Cuts the part of `square` that lies in `limits` out of a layer, of which nothing is outside `bounds`.
+/// Nothing is left of it: an empty rectangle.
+PixelRect cut(const PixelRect& square, const PixelRect& limits, const PixelRect& bounds, int largestPoint,
+              ProgramKind& program, Instance& instance) {
+  const PixelRect allowed = common(square, limits);
+  const PixelRect part = common(allowed, bounds);
+  if (part.empty()) return part;
+  const PixelRect rect = cheapest(part, allowed, largestPoint, program);
   instance.quad = {static_cast<std::uint16_t>(rect.left), static_cast<std::uint16_t>(rect.top),
                    static_cast<std::uint16_t>(rect.right), static_cast<std::uint16_t>(rect.bottom)};
   return rect;
@@ -55,9 +71,9 @@ bool PartialRedraw::collect(const DisplayList& list, const TileSet& tiles, const
   const PixelRect frame{0, 0, target.width, target.height};
   const double most = fullRedrawCost(list, target.width, target.height);
   double spent = 0.0;
-  const auto draw = [&](const PixelRect& square, const PixelRect& limits, ProgramKind program,
-                        Instance instance) {
-    const PixelRect rect = cut(square, limits, target.largestPoint, program, instance);
+  const auto draw = [&](const PixelRect& square, const PixelRect& limits, const PixelRect& bounds,
+                        ProgramKind program, Instance instance) {
+    const PixelRect rect = cut(square, limits, bounds, target.largestPoint, program, instance);
     if (rect.empty()) return;
     queue.add(program, instance);
     spent += cost(program, rect);
@@ -80,7 +96,7 @@ bool PartialRedraw::collect(const DisplayList& list, const TileSet& tiles, const
     Instance instance = layer.instance;
     instance.inner = {static_cast<float>(background.r), static_cast<float>(background.g),
                       static_cast<float>(background.b), 0.0F};
-    draw(square.rect, frame, program, instance);
+    draw(square.rect, frame, frame, program, instance);
     square.lowest = kDrawn;
   }
   for (const Square& square : squares_) {
@@ -88,13 +104,14 @@ bool PartialRedraw::collect(const DisplayList& list, const TileSet& tiles, const
     const Rgba8 color = square.lowest == kBackground
                             ? background
                             : list.primitives[static_cast<std::size_t>(square.lowest)].color;
-    draw(square.rect, frame, {Coverage::Whole, PaintSource::Color, Footprint::Point}, wholeInstance(color));
+    draw(square.rect, frame, frame, {Coverage::Whole, PaintSource::Color, Footprint::Point},
+         wholeInstance(color));
   }
   for (const Hit& hit : hits_) {
     const Square& square = squares_[hit.square];
     if (square.lowest == kDrawn || static_cast<std::int32_t>(hit.layer) < square.lowest) continue; // hidden
     const Layer& layer = list.layers[hit.layer];
-    draw(square.rect, layer.clip, layer.program, layer.instance);
+    draw(square.rect, layer.clip, layer.bounds(), layer.program, layer.instance);
     if (spent > most) return false;
   }
   return spent <= most;

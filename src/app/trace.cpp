@@ -26,6 +26,19 @@ TraceFormat formatOf(const std::filesystem::path& out) {
               fmt::format("{}: a trace ends in .csv or .jsonl, or is - for a pipe", out.string()));
 }
 
+/// Runs the scene to its end, `take` seeing every frame, the first included.
+template <typename Take>
+void runAll(const Scene& scene, WarningLog& warnings, const Take& take) {
+  World world(scene.world);
+  WatchedRun run(world, WarningText(scene), warnings);
+  take(world);
+  while (world.frame() < scene.clock.steps()) {
+    throwIfInterrupted();
+    run.step(world, scene.clock.tick(world.frame() + 1));
+    take(world);
+  }
+}
+
 } // namespace
 
 void addTrace(CLI::App& app, Action& action) {
@@ -66,6 +79,10 @@ void addTrace(CLI::App& app, Action& action) {
       if (scene.replay)
         throw Error(ExitCode::BadInput, fmt::format("{} simulates nothing: it replays the trace {}",
                                                     arguments->scene.string(), scene.replay->trace.file));
+      if (arguments->options.strict) { // what is written to a pipe cannot be taken back
+        WarningLog strict(WarningLog::Mode::Strict);
+        runAll(scene, strict, [](const World&) {});
+      }
       std::optional<TextOutput> states;
       if (withTrace) states.emplace(arguments->out);
       std::optional<TextOutput> events;
@@ -78,20 +95,12 @@ void addTrace(CLI::App& app, Action& action) {
       std::optional<TraceSummary> summary;
       if (arguments->summary) summary.emplace(scene.world);
 
-      World world(scene.world);
-      WarningLog warnings(arguments->options.strict ? WarningLog::Mode::Strict : WarningLog::Mode::Tell);
-      WatchedRun run(world, WarningText(scene), warnings);
-      const auto take = [&] {
+      WarningLog warnings;
+      runAll(scene, warnings, [&](const World& world) {
         if (stateWriter) stateWriter->write(world);
         if (eventWriter) eventWriter->write(world);
         if (summary) summary->add(world);
-      };
-      take();
-      while (world.frame() < scene.clock.steps()) {
-        throwIfInterrupted();
-        run.step(world, scene.clock.tick(world.frame() + 1));
-        take();
-      }
+      });
       if (states) states->commit();
       if (events) events->commit();
       if (summary) fmt::print("{}", summary->text());

@@ -28,4 +28,13 @@ std::array<double, 4> Panels::place(std::size_t index, double width, double heig
           paneHeight};
 }
 
+std::optional<std::array<double, 4>> Panels::freeCells(double width, double height) const {
+  const int taken = static_cast<int>(panels.size()) % columns;
+  if (layout == Layout::Overlaid || taken == 0) return std::nullopt;
+  const double cellWidth = (width - (columns + 1) * gap) / columns;
+  const double cellHeight = (height - (rows() + 1) * gap) / rows();
+  const double left = gap + taken * (cellWidth + gap);
+  return std::array{left, gap + (rows() - 1) * (cellHeight + gap), width - gap - left, cellHeight};
+}
+
 } // namespace offstage

@@ -1,8 +1,11 @@
 #pragma once
 
 #include "src/scene/color.h"
+#include "src/scene/plot.h"
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,6 +22,12 @@ struct Panel {
   std::shared_ptr<const Scene> scene{}; ///< with the changes; has no panels of its own
 };
 
+/// `[[panels.plot]]`: values of several panels in one diagram.
+struct PanelPlot {
+  Plot plot{};                       ///< lengths in px of the whole picture
+  std::vector<std::size_t> panels{}; ///< by curve: whose values they are, an index into Panels::panels
+};
+
 /// Several worlds in one picture, in step. Lengths in scene px; Scene::size is the whole picture's.
 struct Panels {
   enum class Layout : std::uint8_t {
@@ -31,10 +40,14 @@ struct Panels {
   double gap = 16.0;                    ///< px between panes and around them
   double caption = 0.0;                 ///< px: height of the line of the title above each pane
   std::array<double, 2> pane{640, 480}; ///< px: of each world
+  std::vector<PanelPlot> plots{};       ///< over the whole picture
 
   /// Where pane number `index` lies: left, top, width, height in px of a picture of width × height px. It
   /// keeps its aspect and is centred in its cell, below its caption.
   [[nodiscard]] std::array<double, 4> place(std::size_t index, double width, double height) const;
+  /// The cells that the last row of a grid leaves free: left, top, width, height in px of such a picture.
+  /// Nothing when it leaves none.
+  [[nodiscard]] std::optional<std::array<double, 4>> freeCells(double width, double height) const;
   /// The size of the whole picture in which every pane has its own size, px.
   [[nodiscard]] std::array<double, 2> naturalSize() const;
   [[nodiscard]] int rows() const;

@@ -1,8 +1,8 @@
 #include "src/scene/parse_panel.h"
 
 #include "src/scene/limits.h"
+#include "src/scene/parse_panel_plot.h"
 #include "src/scene/quote.h"
-#include "src/scene/scene_builder.h"
 #include "src/scene/table_reader.h"
 #include "src/scene/toml_merge.h"
 
@@ -45,7 +45,8 @@ std::vector<TextItem> readTexts(const TableReader& panels, const Scene& scene) {
   return std::move(whole.scene.texts);
 }
 
-void readLayout(const TomlValue& root, ErrorList& errors, Scene& scene) {
+void readLayout(const TomlValue& root, std::span<const SceneBuilder> builders, ErrorList& errors,
+                Scene& scene) {
   Panels& panels = scene.panels;
   panels.pane = {static_cast<double>(scene.size[0]), static_cast<double>(scene.size[1])};
   const bool titled =
@@ -88,6 +89,7 @@ void readLayout(const TomlValue& root, ErrorList& errors, Scene& scene) {
     for (const Diagnostic& problem : problems.diagnostics())
       errors.add(problem.where.line, problem.where.column, problem.message);
   }
+  parsePanelPlots(reader, builders, scene);
 }
 
 /// The changes that a panel makes: its tables but for what is the panel's own.
@@ -134,8 +136,8 @@ void paintAll(Scene& scene, const Color& color) {
 
 } // namespace
 
-void parsePanels(const TomlValue& root, const SceneOverrides& overrides,
-                 const std::function<Scene(const TomlValue&, const SceneOverrides&)>& parse, Scene& scene) {
+void parsePanels(const TomlValue& root, const SceneOverrides& overrides, const ScenePart& parse,
+                 Scene& scene) {
   const TomlEntry* list = findEntry(root, "panel");
   ErrorList errors(scene.file.string());
   if (list == nullptr) {
@@ -152,6 +154,7 @@ void parsePanels(const TomlValue& root, const SceneOverrides& overrides,
     return;
   }
   std::set<std::tuple<std::uint32_t, std::uint32_t, std::string>> told;
+  std::vector<SceneBuilder> builders; // by panel; what they name is asked for once more, by [[panels.plot]]
   for (const TomlValue& table : *list->value.array()) {
     if (table.table() == nullptr) {
       reportMismatch(table, "every value of 'panel'", "a table", errors);
@@ -164,10 +167,11 @@ void parsePanels(const TomlValue& root, const SceneOverrides& overrides,
     if (reader.has("color")) panel.color = reader.color("color");
     if (errors.count() != before) continue;
     try {
-      Scene own = parse(sceneOf(root, table), overridesFor(table, overrides));
-      if (panel.color) paintAll(own, *panel.color);
-      panel.scene = std::make_shared<const Scene>(std::move(own));
+      SceneBuilder own = parse(sceneOf(root, table), overridesFor(table, overrides));
+      if (panel.color) paintAll(own.scene, *panel.color);
+      panel.scene = std::make_shared<const Scene>(std::exchange(own.scene, {}));
       scene.panels.panels.push_back(std::move(panel));
+      builders.push_back(std::move(own));
     } catch (const SceneError& problems) {
       for (const Diagnostic& problem : problems.diagnostics()) {
         const std::tuple key(problem.where.line, problem.where.column, problem.message);
@@ -181,7 +185,7 @@ void parsePanels(const TomlValue& root, const SceneOverrides& overrides,
     }
   }
   errors.throwIfAny();
-  readLayout(root, errors, scene);
+  readLayout(root, builders, errors, scene);
   errors.throwIfAny();
   // All that is drawn is in the panels.
   scene.overlays = {};

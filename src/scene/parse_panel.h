@@ -1,6 +1,6 @@
 #pragma once
 
-#include "src/scene/scene.h"
+#include "src/scene/scene_builder.h"
 #include "src/scene/toml_value.h"
 
 #include <filesystem>
@@ -8,10 +8,12 @@
 
 namespace offstage {
 
+/// Makes a scene from a tree, but for its panels, with the overrides given. Throws SceneError.
+using ScenePart = std::function<SceneBuilder(const TomlValue&, const SceneOverrides&)>;
+
 /// Reads [panels] and [[panel]] of a scene whose other tables are right: `scene.panels`, and `scene.size` of
-/// the whole picture. `parse` makes a Scene from a tree, with the overrides given; it throws SceneError.
-/// Throws SceneError with the errors of all panels, each once.
-void parsePanels(const TomlValue& root, const SceneOverrides& overrides,
-                 const std::function<Scene(const TomlValue&, const SceneOverrides&)>& parse, Scene& scene);
+/// the whole picture. Throws SceneError with the errors of all panels, each once.
+void parsePanels(const TomlValue& root, const SceneOverrides& overrides, const ScenePart& parse,
+                 Scene& scene);
 
 } // namespace offstage

@@ -89,13 +89,14 @@ void parseTables(SceneBuilder& builder, const TomlValue& root, const SceneOverri
 }
 
 /// A scene from a tree, but for its panels.
-Scene parseWhole(const TomlValue& root, const std::filesystem::path& file, const SceneOverrides& overrides) {
+SceneBuilder parseWhole(const TomlValue& root, const std::filesystem::path& file,
+                        const SceneOverrides& overrides) {
   SceneBuilder builder(file);
   parseTables(builder, root, overrides);
   builder.errors.throwIfAny();
   if (builder.scene.world.groups.empty()) builder.scene.world.groups = WorldSetup{}.groups;
   builder.scene.looks = builder.looks.take();
-  return std::move(builder.scene);
+  return builder;
 }
 
 } // namespace
@@ -112,7 +113,7 @@ Scene parseScene(std::string_view text, const std::filesystem::path& file, const
   const auto root = parseToml(text, file.string(), syntaxError);
   if (!root) throw SceneError({syntaxError});
 
-  Scene scene = parseWhole(*root, file, overrides);
+  Scene scene = parseWhole(*root, file, overrides).scene;
   const auto parse = [&](const TomlValue& tree, const SceneOverrides& own) {
     return parseWhole(tree, file, own);
   };

@@ -334,6 +334,9 @@ constexpr SceneKey kKeys[] = {
     {"panels", "caption", "number", "px", "a twelfth of the height"},
     {"panels", "size", "[width, height]", "px", "of all panes"},
     {"panels", "text", "tables", "", "none"},
+    {"panels", "plot", "tables", "", "none"},
+
+    {"panels.plot", "of", "panel or list", "", "all panels"},
 
     {"replay", "trace", "file", "", "required"},
     {"replay", "start", "number", "s", "the first row's time"},

@@ -1,5 +1,6 @@
 #include "src/scene/warning_text.h"
 
+#include "src/scene/limits.h"
 #include "src/scene/quote.h"
 #include "src/scene/scene.h"
 
@@ -108,6 +109,8 @@ WarningText::WarningText(const Scene& scene, std::string panel)
       groups_(scene.world.groups),
       expected_(scene.expectedWarnings),
       substeps_(scene.world.substeps),
+      form_(scene.world.stepping.form),
+      solver_(scene.world.contactModel == ContactModel::Solver),
       clamps_(scene.world.walls.clamp) {}
 
 std::string WarningText::bodyName(std::uint32_t id) const {
@@ -116,21 +119,34 @@ std::string WarningText::bodyName(std::uint32_t id) const {
 }
 
 std::string WarningText::textOfCrossing(const Crossing& crossing) const {
-  if (crossing.side) {
-    const std::string text =
-        fmt::format("it went through the pane's {} edge and is behind it; ", wordOf(*crossing.side));
-    return text + (clamps_ ? "other bodies push it: [world] contacts = \"solver\" does not let them"
-                           : "[walls] clamp = true puts it back onto the edge");
-  }
+  if (crossing.side) return textOfEdge(*crossing.side);
   std::string text =
-      fmt::format("it went through {} in one step without touching it", bodyName(*crossing.other));
-  text += fmt::format(": {:.4g} px, where both together are {:.4g} px wide; continuous = true on one of them "
-                      "makes its whole way count",
-                      crossing.way, crossing.width);
-  if (crossing.width > 0.0)
-    text += fmt::format(", or {} shortens the steps",
-                        substepsFor(2.0 * crossing.way / crossing.width, substeps_));
-  return text;
+      fmt::format("it went through {} in one step without touching it: {:.4g} px, where both together are "
+                  "{:.4g} px wide; ",
+                  bodyName(*crossing.other), crossing.way, crossing.width);
+  if (solver_) text += "the contact solver looks for contacts once a step, whatever its substeps: ";
+  text += "continuous = true on one of them makes its whole way count";
+  const std::string steps = stepsFor(crossing);
+  return steps.empty() ? text : text + fmt::format(", or {} shortens the steps", steps);
+}
+
+std::string WarningText::textOfEdge(Side side) const {
+  const std::string text = fmt::format("it went through the pane's {} edge and is behind it; ", wordOf(side));
+  if (solver_)
+    return text + "a \"slide\" pushes it after the walls have held it: response = \"bounce\" does not";
+  return text + (clamps_ ? "other bodies push it: [world] contacts = \"solver\" does not let them"
+                         : "[walls] clamp = true puts it back onto the edge");
+}
+
+/// The key that makes a move at most half as long as both bodies are wide; empty: none does.
+std::string WarningText::stepsFor(const Crossing& crossing) const {
+  if (!(crossing.width > 0.0)) return "";
+  const double shorter = 2.0 * crossing.way / crossing.width;
+  if (!solver_) return substepsFor(shorter, substeps_);
+  const double dt = crossing.step / (std::floor(shorter) + 1.0);
+  if (!(dt >= kMinStep)) return "";
+  const bool divides = form_ == Stepping::Form::Clamped || form_ == Stepping::Form::Accumulator;
+  return fmt::format("[clock] {}dt = {:.3g}", divides ? "" : "step = \"clamped\" with ", dt);
 }
 
 std::string WarningText::of(const Warning& warning) const {

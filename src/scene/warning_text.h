@@ -1,6 +1,7 @@
 #pragma once
 
 #include "src/sim/warning.h"
+#include "src/sim/world_setup.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -34,6 +35,8 @@ public:
 private:
   [[nodiscard]] std::string bodyName(std::uint32_t id) const;
   [[nodiscard]] std::string textOfCrossing(const Crossing& crossing) const;
+  [[nodiscard]] std::string textOfEdge(Side side) const;
+  [[nodiscard]] std::string stepsFor(const Crossing& crossing) const;
 
   std::string file_;
   std::string panel_;
@@ -41,7 +44,9 @@ private:
   std::vector<std::string> groups_; ///< by index
   std::vector<std::size_t> expected_;
   int substeps_ = 1;
-  bool clamps_ = true; ///< its walls
+  Stepping::Form form_ = Stepping::Form::Variable;
+  bool solver_ = false; ///< it has the contact solver
+  bool clamps_ = true;  ///< its walls
 };
 
 } // namespace offstage

@@ -42,7 +42,8 @@ TunnelWatch::TunnelWatch(const WorldSetup& setup)
       walls_(setup.walls),
       pane_(setup.pane),
       closed_(std::any_of(walls_.restitution.begin(), walls_.restitution.end(),
-                          [](const auto& edge) { return edge.has_value(); })) {
+                          [](const auto& edge) { return edge.has_value(); })),
+      parts_(setup.contactModel == ContactModel::Solver ? setup.substeps : 1) {
   for (const ContactRule& rule : setup.contacts) ruled_[rule.groupA] = ruled_[rule.groupB] = 1;
 }
 
@@ -54,8 +55,9 @@ bool TunnelWatch::haveRule(const Body& first, const Body& second) const {
   return rules_.find(rules_.numberOf(first.group), rules_.numberOf(second.group)) != nullptr;
 }
 
-void TunnelWatch::begin(std::span<const Body> bodies) {
+void TunnelWatch::begin(std::span<const Body> bodies, double h) {
   if (rules_.empty()) return;
+  length_ = h * parts_;
   starts_.resize(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) starts_[i] = bodies[i].position;
 }
@@ -128,7 +130,7 @@ std::optional<Warning> TunnelWatch::crossing(std::span<const Body> bodies, const
   Warning warning;
   warning.body = first.id;
   warning.group = first.group;
-  warning.what = Crossing{.other = second.id, .way = length(way), .width = 2.0 * half};
+  warning.what = Crossing{.other = second.id, .way = length(way), .width = 2.0 * half, .step = length_};
   return warning;
 }
 

@@ -30,8 +30,9 @@ public:
   /// Copies what it needs of the setup.
   explicit TunnelWatch(const WorldSetup& setup);
 
-  /// Before a move: keeps where the bodies are. Does nothing when no rule is there.
-  void begin(std::span<const Body> bodies);
+  /// Before a move, for which an integrator takes steps of `h` (s): keeps where the bodies are. Does nothing
+  /// when no rule is there.
+  void begin(std::span<const Body> bodies, double h);
   /// After it: the first pair that crossed.
   std::optional<Warning> findPair(std::span<const Body> bodies, std::span<const Event> events);
 
@@ -54,8 +55,10 @@ private:
   Walls walls_;
   Vec2 pane_ = Vec2::Zero();
   bool closed_ = false; ///< some edge is
+  int parts_ = 1;       ///< steps of an integrator in a move
 
   // Of a move; kept to spare allocations.
+  double length_ = 0.0;      ///< s
   std::vector<Vec2> starts_; ///< by index: Body::position
   std::vector<Move> fast_;
   std::vector<std::uint32_t> members_, near_;

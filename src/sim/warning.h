@@ -32,6 +32,7 @@ struct Crossing {
   std::optional<Side> side{};           ///< the edge that it is behind
   double way = 0.0;   ///< px: how far it moved in the step, as the other one sees it; 0 at an edge
   double width = 0.0; ///< px: how wide both are together
+  double step = 0.0;  ///< s: how long the move took; with the contact solver the whole step; 0 at an edge
 };
 
 /// The step is longer than the integrator stands for a spring (spring_stability.h).

@@ -43,7 +43,7 @@ void Watch::tell(const std::optional<Warning>& warning) {
 
 void Watch::beforeMove(std::span<const Body> bodies, double h) {
   if (!told<LongStep>()) tell(springs_.find(bodies, h));
-  if (!told<Crossing>()) tunnels_.begin(bodies);
+  if (!told<Crossing>()) tunnels_.begin(bodies, h);
 }
 
 void Watch::afterMove(std::span<const Body> bodies, std::span<const Event> events) {

@@ -240,6 +240,10 @@ std::string dump(const Scene& scene) {
   if (!scene.panels.panels.empty()) {
     text += fmt::format("\npanels {} {} {} {}", static_cast<int>(scene.panels.layout), scene.panels.columns,
                         scene.panels.gap, scene.panels.caption);
+    for (const PanelPlot& each : scene.panels.plots) {
+      text += dump(each.plot);
+      for (const std::size_t panel : each.panels) text += fmt::format(" of {}", panel);
+    }
     for (const Panel& panel : scene.panels.panels)
       text += fmt::format("\npanel {} {}\n{}", panel.title, dump(panel.color), dump(*panel.scene));
   }
