@@ -39,6 +39,18 @@ std::int64_t SharedState::bytes() const {
   return sum;
 }
 
+bool SharedState::claim(std::int64_t index) {
+  return !chunk(index).claimed.exchange(true);
+}
+
+bool SharedState::claimed(std::int64_t index) const {
+  return chunk(index).claimed;
+}
+
+void SharedState::releaseClaims() {
+  for (std::int64_t index = 0; index < chunks_; ++index) chunk(index).claimed = false;
+}
+
 void SharedState::fail(const Error& error) {
   int none = 0;
   if (!header().errorState.compare_exchange_strong(none, 1)) return;

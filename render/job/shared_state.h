@@ -9,8 +9,8 @@
 
 namespace offstage {
 
-/// Memory that a process and those forked from it write to together: how far every chunk is, and the first
-/// error.
+/// Memory that a process and those forked from it write to together: who makes which chunk, how far every
+/// chunk is, and the first error.
 class SharedState {
 public:
   explicit SharedState(std::int64_t chunks);
@@ -23,6 +23,15 @@ public:
   void setProgress(std::int64_t chunk, std::int64_t frames, std::int64_t bytes);
   [[nodiscard]] std::int64_t frames() const; ///< of all chunks
   [[nodiscard]] std::int64_t bytes() const;
+
+  /// Takes a chunk for the calling process; false when it is taken.
+  bool claim(std::int64_t chunk);
+  [[nodiscard]] bool claimed(std::int64_t chunk) const;
+  void releaseClaims(); ///< of all chunks
+
+  /// s: how long the simulation takes for a frame, as the process that steps ahead has found; 0 before.
+  void setStepSeconds(double seconds) { header().stepSeconds = seconds; }
+  [[nodiscard]] double stepSeconds() const { return header().stepSeconds; }
 
   /// Keeps the first error that any process reports.
   void fail(const Error& error);
@@ -37,15 +46,19 @@ private:
   struct Header {
     std::atomic<int> errorState; ///< 0 none, 1 being written, 2 there
     std::atomic<int> signal;
+    std::atomic<double> stepSeconds;
     int code;
     std::size_t length;
     char text[8192];
   };
   struct Chunk {
+    std::atomic<bool> claimed;
     std::atomic<std::int64_t> frames;
     std::atomic<std::int64_t> bytes;
   };
-  static_assert(std::atomic<std::int64_t>::is_always_lock_free, "processes cannot share a lock");
+  static_assert(std::atomic<std::int64_t>::is_always_lock_free && std::atomic<double>::is_always_lock_free &&
+                    std::atomic<bool>::is_always_lock_free,
+                "processes cannot share a lock");
   [[nodiscard]] Header& header() const { return *static_cast<Header*>(memory_); }
   [[nodiscard]] Chunk& chunk(std::int64_t index) const;
 

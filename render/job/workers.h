@@ -10,8 +10,10 @@ namespace offstage {
 
 /// Makes the chunks with forked processes. The calling process stays where it is in the simulation and never
 /// touches GL, so the same can be done again: one process, forked from it, steps `source`, and forks a worker
-/// at the start of every missing chunk, at most `jobs` at a time. A worker inherits the world's state,
-/// replays the chunk's frames, draws and encodes them.
+/// at the start of a missing chunk, at most `jobs` at a time. A worker inherits the world's state, replays
+/// the chunk's frames, draws and encodes them. Where the simulation steps quickly over what others make, it
+/// goes on with another chunk and keeps its GL context and its memory; else it ends, and the next is forked
+/// where the simulating process has got to.
 ///
 /// Chunks whose worker was killed are made again. Throws Error(Transient) when three rounds in a row have not
 /// made a single chunk; the first error that a worker reports; Error when a signal has come (interrupt.h). No

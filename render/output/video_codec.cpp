@@ -36,21 +36,25 @@ namespace {
 //   E, no 8x8dct, crf 18.7   48 .99959    1934 .98679    11979 .95056     -     -
 //   F                        51 .99961    2056 .98762    12699 .95421    904 .99176
 //   F, qcomp=0.4, crf 16.6   52 .99962    2041 .98764    12247 .95192    885 .99188*   * crf 16.7
-//   the one below            52 .99962    2018 .98746    11676 .94861    889 .99217
+//   G                        52 .99962    2018 .98746    11676 .94861    889 .99217
 //   F, qcomp=0.2, crf 13.8   53 .99963    2004 .98725    11198 .94546    886 .99228
-// A: subme=1 b-adapt=0, crf 18. B: A with rc-lookahead=20 bframes=4 weightp=0 direct=temporal, crf 20.
-// C: B with rc-lookahead=5 bframes=2 b-pyramid=none qcomp=0.65, crf 20.2.
-// D: C with dct-decimate=0 qcomp=0.5, crf 18. E: D with me=dia merange=8. F: E without 8x8 intra blocks,
-// whose prediction blurs small circles (without any 8x8 transform the profile would be Main), crf 18.1. The
-// one below: F with qcomp=0.3, crf 15.2. Where bodies move on, the temporal prediction of B-frames is exact;
-// weights, which help with fades, cost time. x264 drops blocks that have few small coefficients (decimation);
-// in flat graphics those are the edges. A low qcomp spends less where much moves. Every frame of lookahead
-// takes 6 MB at this size and the pyramid 30 MB, so B takes 330 MB a worker and this one 200. Psychovisual
-// optimisation does nothing below subme 6. cpu-independent: else x264 chooses some algorithms by the
-// processor, and the bytes with them.
+//   the one below            53 .99961    2099 .98713    11512 .94707    908 .99199
+// A whole render with the one below, one worker, takes 9.4 s of CPU at N = 1000 (300 frames) and 5.0 s at
+// 10000 (60), with G 9.7 s and 5.3 s: medians of three.
+//
+// A: subme=1 b-adapt=0, crf 18. B: A with rc-lookahead=20 bframes=4 weightp=0 direct=temporal, crf 20. C:
+// B with rc-lookahead=5 bframes=2 b-pyramid=none qcomp=0.65, crf 20.2. D: C with dct-decimate=0 qcomp=0.5,
+// crf 18. E: D with me=dia merange=8. F: E without 8x8 intra blocks, whose prediction blurs small circles
+// (without any 8x8 transform the profile would be Main), crf 18.1. G: F with qcomp=0.3, crf 15.2. The one
+// below: G with P macroblocks whole, qcomp=0.25, crf 14.6. Where bodies move on, the temporal prediction of
+// B-frames is exact; weights, which help with fades, cost time. x264 drops blocks that have few small
+// coefficients (decimation); in flat graphics those are the edges. A low qcomp spends less where much moves.
+// Every frame of lookahead takes 6 MB at this size and the pyramid 30 MB, so B takes 330 MB a worker and this
+// one 200. Psychovisual optimisation does nothing below subme 6. cpu-independent: else x264 chooses some
+// algorithms by the processor, and the bytes with them.
 constexpr const char* kX264Fast =
     "subme=1:b-adapt=0:bframes=2:b-pyramid=none:weightp=0:direct=temporal:"
-    "dct-decimate=0:rc-lookahead=5:qcomp=0.3:me=dia:merange=8:partitions=p8x8,b8x8,i4x4:cpu-independent=1";
+    "dct-decimate=0:rc-lookahead=5:qcomp=0.25:me=dia:merange=8:partitions=b8x8,i4x4:cpu-independent=1";
 
 const std::vector<CodecTraits> kCodecs{
     {VideoCodec::H264, "libx264", ".mp4 .mkv .mov", "libavcodec59", "H.264", false, true, 16384, "h264",
@@ -80,7 +84,7 @@ OptionList h264Options(Quality quality) {
   case Quality::Draft:
     return {{"preset", "superfast"}, {"profile", "high"}, {"crf", "28"}, {"x264-params", kX264Fast}};
   case Quality::Good:
-    return {{"preset", "veryfast"}, {"profile", "high"}, {"crf", "15.2"}, {"x264-params", kX264Fast}};
+    return {{"preset", "veryfast"}, {"profile", "high"}, {"crf", "14.6"}, {"x264-params", kX264Fast}};
   case Quality::High:
     return {{"preset", "medium"}, {"profile", "high"}, {"crf", "14"}, {"x264-params", "cpu-independent=1"}};
   case Quality::Lossless:
