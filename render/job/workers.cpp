@@ -2,6 +2,7 @@
 
 #include "render/job/child_process.h"
 #include "render/job/interrupt.h"
+#include "render/raster/context.h"
 
 #include <algorithm>
 #include <array>
@@ -114,6 +115,7 @@ public:
       : job_(job), chunks_(chunks), source_(source), jobs_(jobs) {}
 
   void run() {
+    preloadGl(); // once for all workers
     for (const std::int64_t chunk : chunks_) {
       if (job_.state.claimed(chunk)) continue;
       stepTo(job_.firstSimulated(chunk));

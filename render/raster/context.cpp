@@ -1,6 +1,7 @@
 #include "render/raster/context.h"
 
 #include "render/raster/backends.h"
+#include "render/raster/dynamic_library.h"
 #include "src/sim/error.h"
 
 #include <cstdlib>
@@ -29,11 +30,22 @@ void setMesaDefaults() {
 constexpr std::string_view kInstallHint =
     "install libosmesa6, or libegl1 libegl-mesa0 libgl1-mesa-dri (apt-get install ...)";
 
+std::string_view wantedBackend() {
+  const char* setting = std::getenv("OFFSTAGE_GL");
+  return setting == nullptr || *setting == '\0' ? "auto" : setting;
+}
+
 } // namespace
 
+void preloadGl() {
+  if (wantedBackend() != "auto" && wantedBackend() != "osmesa") return;
+  setMesaDefaults();
+  std::string reason; // whoever makes a context will hear it
+  static_cast<void>(DynamicLibrary::open(kOsMesaLibrary, reason));
+}
+
 std::unique_ptr<GlContext> makeGlContext() {
-  const char* setting = std::getenv("OFFSTAGE_GL");
-  const std::string_view wanted = setting == nullptr || *setting == '\0' ? "auto" : setting;
+  const std::string_view wanted = wantedBackend();
   if (wanted != "auto" && wanted != "osmesa" && wanted != "egl" && wanted != "egl-device") {
     throw Error(ExitCode::BadInput,
                 fmt::format("OFFSTAGE_GL is '{}'; it may be osmesa, egl, egl-device or auto", wanted));

@@ -26,4 +26,9 @@ public:
 /// Throws Error(Environment) naming the Debian packages when there is none, Error(BadInput) on another value.
 std::unique_ptr<GlContext> makeGlContext();
 
+/// Loads the library that makeGlContext() will most likely use, and makes nothing with it: processes that are
+/// forked afterwards share its memory (of LLVM alone 8 MB that the loader has written to) and the time that
+/// loading takes. Does nothing where it is missing, or another one is asked for.
+void preloadGl();
+
 } // namespace offstage

@@ -58,7 +58,7 @@ private:
 } // namespace
 
 std::unique_ptr<GlContext> makeOsMesaContext(std::string& reason) {
-  const auto library = DynamicLibrary::open("libOSMesa.so.8", reason);
+  const auto library = DynamicLibrary::open(kOsMesaLibrary, reason);
   if (!library) return nullptr;
   const auto create = library->function<decltype(&OSMesaCreateContextAttribs)>("OSMesaCreateContextAttribs");
   if (create == nullptr || library->function<void*>("OSMesaMakeCurrent") == nullptr ||
