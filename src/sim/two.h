@@ -49,6 +49,7 @@ inline Two select(const TwoBits& bits, const Two& a, const Two& b) {
 
 /// Whether both are finite.
 inline bool bothFinite(const Two& two) {
+  // NOLINTNEXTLINE(misc-redundant-expression): of infinity and of NaN it is NaN
   return maskOf(two - two == Two{}) == 3;
 }
 
