@@ -122,6 +122,7 @@ std::set<int> processesOf(const std::vector<Begun>& begun) {
 
 std::vector<std::int64_t> chunksOf(const std::vector<Begun>& begun) {
   std::vector<std::int64_t> chunks;
+  chunks.reserve(begun.size());
   for (const Begun& line : begun) chunks.push_back(line.chunk);
   return chunks;
 }
