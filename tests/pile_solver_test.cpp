@@ -312,6 +312,24 @@ TEST(PileSolver, StepDoesNotAllocateAfterWarmUp) {
   EXPECT_EQ(allocationsSinceLastCall(), 0U) << "in 200 steps";
 }
 
+/// From the first fall to the pile at rest, the state that a user reads included.
+TEST(PileSolver, AWorldTakesFewerThan400BytesABody) {
+  if (!bytesHeld()) GTEST_SKIP() << "the sanitizer's own operator new does not count";
+  for (const int bodies : {1000, 4000}) {
+    const WorkloadS workload(bodies);
+    const std::ptrdiff_t before = *bytesHeld();
+    World world(workload.setup);
+    std::ptrdiff_t most = 0;
+    const Clock clock = Clock::fixed(60, 300);
+    while (world.frame() < 300) {
+      world.step(clock.tick(world.frame() + 1));
+      most = std::max(most, *bytesHeld() - before);
+    }
+    EXPECT_LT(static_cast<double>(most) / bodies, 400.0) << bodies << " bodies";
+    EXPECT_GT(most, std::ptrdiff_t{sizeof(Body)} * bodies) << "is anything counted?";
+  }
+}
+
 TEST(PileSolver, StepsWithoutLengthMoveNothingAndUnevenOnesKeepThePileAtRest) {
   WorldSetup setup = solverSetup(Vec2(0, 900));
   setup.walls.restitution[3] = 0.3;

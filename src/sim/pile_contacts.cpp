@@ -71,7 +71,7 @@ PileContacts::PileContacts(const WorldSetup& setup, const RuleTable& rules)
 void PileContacts::find(std::span<const Body> bodies, const PileSlots& slots, double dt, double warmth) {
   blocks_.begin(slots.size() + std::size_t{1}, slots.sameWeight());
   friction_.clear();
-  impacts_.clear();
+  impacts_.begin(slots.size());
   const Step step{bodies,
                   slots,
                   dt,

@@ -49,6 +49,10 @@ void PileImpacts::restitute(ContactBlocks& blocks, std::span<SlotState> states) 
 
 void PileImpacts::report(std::span<const Body> bodies, const Event& stamp, std::size_t firstEvent,
                          std::vector<Event>& events) const {
+  const auto count = static_cast<std::size_t>(std::count_if(
+      impacts_.begin(), impacts_.end(), [](const Impact& impact) { return impact.touched && impact.isNew; }));
+  if (events.capacity() < events.size() + count)
+    events.reserve(events.size() + std::max(count + count / 4, bodies.size() / 4));
   for (const Impact& impact : impacts_) {
     if (!impact.touched || !impact.isNew) continue;
     if (impact.other >= ContactMemory::kFirstWall) {

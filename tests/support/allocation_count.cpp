@@ -1,6 +1,7 @@
 #include "tests/support/allocation_count.h"
 
 #include <cstdlib>
+#include <malloc.h>
 #include <new>
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -10,6 +11,9 @@ namespace offstage::test {
 std::optional<std::size_t> allocationsSinceLastCall() {
   return std::nullopt;
 }
+std::optional<std::ptrdiff_t> bytesHeld() {
+  return std::nullopt;
+}
 
 } // namespace offstage::test
 
@@ -17,20 +21,29 @@ std::optional<std::size_t> allocationsSinceLastCall() {
 
 namespace {
 
-thread_local std::size_t count = 0; // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+thread_local std::size_t count = 0;   // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+thread_local std::ptrdiff_t held = 0; // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+
+void* counted(void* memory) {
+  if (memory == nullptr) throw std::bad_alloc();
+  ++count;
+  held += static_cast<std::ptrdiff_t>(malloc_usable_size(memory));
+  return memory;
+}
 
 void* allocate(std::size_t size) {
-  ++count;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory; // NOLINT(cppcoreguidelines-no-malloc)
-  throw std::bad_alloc();
+  return counted(std::malloc(size == 0 ? 1 : size)); // NOLINT(cppcoreguidelines-no-malloc)
 }
 
 void* allocate(std::size_t size, std::align_val_t alignment) {
-  ++count;
   const auto step = static_cast<std::size_t>(alignment);
   const std::size_t whole = (size + step - 1) / step * step; // as aligned_alloc wants it
-  if (void* memory = std::aligned_alloc(step, whole == 0 ? step : whole)) return memory;
-  throw std::bad_alloc();
+  return counted(std::aligned_alloc(step, whole == 0 ? step : whole));
+}
+
+void release(void* memory) {
+  held -= static_cast<std::ptrdiff_t>(malloc_usable_size(memory)); // of null: 0
+  std::free(memory);                                               // NOLINT(cppcoreguidelines-no-malloc)
 }
 
 } // namespace
@@ -49,36 +62,39 @@ void* operator new[](std::size_t size, std::align_val_t alignment) {
   return allocate(size, alignment);
 }
 void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept {
-  std::free(memory); // NOLINT(cppcoreguidelines-no-malloc)
+  release(memory);
 }
 void operator delete[](void* memory, std::align_val_t /*alignment*/) noexcept {
-  std::free(memory); // NOLINT(cppcoreguidelines-no-malloc)
+  release(memory);
 }
 void operator delete(void* memory, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept {
-  std::free(memory); // NOLINT(cppcoreguidelines-no-malloc)
+  release(memory);
 }
 void operator delete[](void* memory, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept {
-  std::free(memory); // NOLINT(cppcoreguidelines-no-malloc)
+  release(memory);
 }
 void operator delete(void* memory) noexcept {
-  std::free(memory); // NOLINT(cppcoreguidelines-no-malloc)
+  release(memory);
 }
 void operator delete[](void* memory) noexcept {
-  std::free(memory); // NOLINT(cppcoreguidelines-no-malloc)
+  release(memory);
 }
 void operator delete(void* memory, std::size_t /*size*/) noexcept {
-  std::free(memory); // NOLINT(cppcoreguidelines-no-malloc)
+  release(memory);
 }
 void operator delete[](void* memory, std::size_t /*size*/) noexcept {
-  std::free(memory); // NOLINT(cppcoreguidelines-no-malloc)
+  release(memory);
 }
 
 namespace offstage::test {
 
 std::optional<std::size_t> allocationsSinceLastCall() {
-  const std::size_t counted = count;
+  const std::size_t allocations = count;
   count = 0;
-  return counted;
+  return allocations;
+}
+std::optional<std::ptrdiff_t> bytesHeld() {
+  return held;
 }
 
 } // namespace offstage::test
