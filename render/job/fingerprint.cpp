@@ -2,9 +2,10 @@
 
 #include "src/sim/clock.h"
 
+#include <array>
 #include <bit>
+#include <cstddef>
 #include <fstream>
-#include <iterator>
 #include <string>
 
 namespace offstage {
@@ -27,7 +28,12 @@ void Fingerprint::add(const Clock& clock) {
 
 void Fingerprint::addFile(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  add(std::string(std::istreambuf_iterator<char>(stream), {}));
+  std::string text;
+  std::array<char, 1U << 16U> block; // NOLINT(cppcoreguidelines-pro-type-member-init)
+  while (stream.read(block.data(), block.size()), stream.gcount() > 0) {
+    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+  }
+  add(text);
 }
 
 } // namespace offstage

@@ -1,6 +1,6 @@
 #include "src/scene/scene_keys.h"
 
-#include <algorithm>
+#include <unordered_map>
 #include <vector>
 
 namespace offstage {
@@ -411,10 +411,11 @@ constexpr SceneKey kKeys[] = {
 };
 // clang-format on
 
-std::vector<const SceneKey*> sortedByName() {
-  std::vector<const SceneKey*> keys;
-  for (const SceneKey& key : kKeys) keys.push_back(&key);
-  std::ranges::stable_sort(keys, {}, &SceneKey::key);
+using KeysByName = std::unordered_map<std::string_view, std::vector<const SceneKey*>>;
+
+KeysByName keysByName() {
+  KeysByName keys;
+  for (const SceneKey& key : kKeys) keys[key.key].push_back(&key);
   return keys;
 }
 
@@ -425,12 +426,10 @@ std::span<const SceneKey> sceneKeyTable() {
 }
 
 std::span<const SceneKey* const> sceneKeysNamed(std::string_view key) {
-  static const std::vector<const SceneKey*> kByName = sortedByName();
-  // Not std::ranges::equal_range(), whose result clang++ 14 cannot compile.
-  const auto before = [](const SceneKey* candidate, std::string_view name) { return candidate->key < name; };
-  const auto behind = [](std::string_view name, const SceneKey* candidate) { return name < candidate->key; };
-  return {std::lower_bound(kByName.begin(), kByName.end(), key, before),
-          std::upper_bound(kByName.begin(), kByName.end(), key, behind)};
+  static const KeysByName kByName = keysByName();
+  const auto found = kByName.find(key);
+  if (found == kByName.end()) return {};
+  return found->second;
 }
 
 std::vector<SceneKey> sceneKeys() {

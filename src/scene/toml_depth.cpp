@@ -1,6 +1,6 @@
 #include "src/scene/toml_depth.h"
 
-#include <algorithm>
+#include <array>
 
 namespace offstage {
 namespace {
@@ -30,38 +30,54 @@ std::size_t skippedLength(std::string_view text) {
   return text.size();
 }
 
-void advance(TooDeep& position, std::string_view passed) {
-  for (const char byte : passed) {
+/// Where text[at] is.
+TooDeep placeOf(std::string_view text, std::size_t at) {
+  TooDeep place;
+  for (const char byte : text.substr(0, at)) {
     if (byte == '\n') {
-      ++position.line;
-      position.column = 1;
+      ++place.line;
+      place.column = 1;
     } else if ((static_cast<unsigned char>(byte) & 0xc0U) != 0x80U) { // not a continuation byte of UTF-8
-      ++position.column;
+      ++place.column;
     }
   }
+  place.isKey = text[at] == '.';
+  return place;
 }
+
+/// By byte: whether it can begin a string or a comment, end a key, nest or stand between a key's parts. The
+/// rest, nearly all of a large scene, is passed over.
+constexpr std::array<bool, 256> kMatters = [] {
+  std::array<bool, 256> matters{};
+  for (const char letter : std::string_view("#\"'.=,[]{}\n"))
+    matters[static_cast<unsigned char>(letter)] = true;
+  return matters;
+}();
 
 } // namespace
 
 std::optional<TooDeep> findTooDeep(std::string_view text) {
-  TooDeep position;
   std::size_t dots = 0;
   std::size_t nested = 0;
   std::size_t i = 0;
   while (i < text.size()) {
-    std::size_t length = std::min(skippedLength(text.substr(i)), text.size() - i);
-    if (length == 0) {
-      length = 1;
-      const char letter = text[i];
-      // A key ends at any of these; between them stands one key or one number, which has one dot.
-      if (std::string_view("=,[]{}\n").find(letter) != std::string_view::npos) dots = 0;
-      position.isKey = letter == '.';
-      if (position.isKey && ++dots > kMaxDotsInKey) return position;
-      if ((letter == '[' || letter == '{') && ++nested > kMaxNestedValues) return position;
-      if ((letter == ']' || letter == '}') && nested > 0) --nested;
+    const char letter = text[i];
+    if (!kMatters[static_cast<unsigned char>(letter)]) {
+      ++i;
+      continue;
     }
-    advance(position, text.substr(i, length));
-    i += length;
+    if (const std::size_t skipped = skippedLength(text.substr(i)); skipped > 0) {
+      i += skipped;
+      continue;
+    }
+    if (letter == '.') {
+      if (++dots > kMaxDotsInKey) return placeOf(text, i);
+    } else {
+      dots = 0; // a key ends at any of these; between them stands one key or one number, which has one dot
+    }
+    if ((letter == '[' || letter == '{') && ++nested > kMaxNestedValues) return placeOf(text, i);
+    if ((letter == ']' || letter == '}') && nested > 0) --nested;
+    ++i;
   }
   return std::nullopt;
 }

@@ -6,6 +6,11 @@
 #include <utility>
 
 #include <fmt/core.h>
+
+// Compiled here, not linked: the shared library reads every number through a stream and its locale, which
+// takes longer than all the rest of a large scene.
+#define TOML_HEADER_ONLY 1
+#define TOML_FLOAT_CHARCONV 1
 #include <toml++/toml.h>
 
 namespace offstage {
