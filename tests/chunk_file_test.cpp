@@ -86,7 +86,7 @@ TEST(ChunkFile, NothingAndOtherThingsAreNoChunks) {
 TEST(ChunkFile, AnImpossibleSizeTakesNoMemory) {
   const TempDir dir;
   std::string bytes = test::readFile(writeChunk(dir)).substr(0, 17);
-  bytes += std::string("\xFE\xFF\xFF\xFF\xFF\xFF\xFF\x7F", 8) + std::string(100, 'x');
+  bytes.append("\xFE\xFF\xFF\xFF\xFF\xFF\xFF\x7F", 8).append(100, 'x');
   test::writeFile(dir / "a.chunk", bytes);
   EXPECT_THAT(readAll(dir / "a.chunk"), HasSubstr("ends too early"));
 }

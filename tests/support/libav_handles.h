@@ -2,7 +2,8 @@
 
 #include <array>
 #include <stdexcept>
-#include <string>
+
+#include <fmt/format.h>
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -24,7 +25,7 @@ inline int requireLibav(int result, const char* what) {
   if (result >= 0) return result;
   std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
   av_strerror(result, text.data(), text.size());
-  throw std::runtime_error(std::string(what) + ": " + text.data());
+  throw std::runtime_error(fmt::format("{}: {}", what, text.data()));
 }
 
 } // namespace offstage::test
