@@ -1,6 +1,8 @@
 #include "src/scene/scene_keys.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <unordered_map>
 #include <vector>
 
 namespace offstage {
@@ -418,6 +420,17 @@ std::vector<const SceneKey*> sortedByName() {
   return keys;
 }
 
+/// Those of the same name, which stand side by side. A table of bodies asks for names by the million.
+std::unordered_map<std::string_view, std::span<const SceneKey* const>>
+runsOf(std::span<const SceneKey* const> byName) {
+  std::unordered_map<std::string_view, std::span<const SceneKey* const>> runs;
+  for (std::size_t first = 0, end = 0; first < byName.size(); first = end) {
+    while (end < byName.size() && byName[end]->key == byName[first]->key) ++end;
+    runs.emplace(byName[first]->key, byName.subspan(first, end - first));
+  }
+  return runs;
+}
+
 } // namespace
 
 std::span<const SceneKey> sceneKeyTable() {
@@ -426,11 +439,9 @@ std::span<const SceneKey> sceneKeyTable() {
 
 std::span<const SceneKey* const> sceneKeysNamed(std::string_view key) {
   static const std::vector<const SceneKey*> kByName = sortedByName();
-  // Not std::ranges::equal_range(), whose result clang++ 14 cannot compile.
-  const auto before = [](const SceneKey* candidate, std::string_view name) { return candidate->key < name; };
-  const auto behind = [](std::string_view name, const SceneKey* candidate) { return name < candidate->key; };
-  return {std::lower_bound(kByName.begin(), kByName.end(), key, before),
-          std::upper_bound(kByName.begin(), kByName.end(), key, behind)};
+  static const std::unordered_map<std::string_view, std::span<const SceneKey* const>> kRuns = runsOf(kByName);
+  const auto run = kRuns.find(key);
+  return run == kRuns.end() ? std::span<const SceneKey* const>() : run->second;
 }
 
 std::vector<SceneKey> sceneKeys() {
