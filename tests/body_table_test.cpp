@@ -14,7 +14,9 @@
 namespace offstage::test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// A scene with this text whose table has these rows.
 class Tabled {
@@ -126,7 +128,20 @@ TEST(BodyTable, WhatIsWrongIsNamedWithItsPlace) {
   EXPECT_THAT(
       errors("x,y,radius,shape,width,height\n1,2,3,rectangle,4,5\n"),
       HasSubstr("t.csv:2:5: error: 'radius' of a body belongs to a circle, but this shape is a rectangle"));
-  EXPECT_THAT(errors("x,y,radius\n\"1,2,3\n"), HasSubstr("this quote is never closed"));
+  const auto unclosed = [](const std::string& place) { // and nothing about what the quote has swallowed
+    return AllOf(HasSubstr(place + ": error: this quote is never closed"), Not(HasSubstr("cell")),
+                 Not(HasSubstr("number")));
+  };
+  EXPECT_THAT(errors("x,y,radius\n\"1,2,3\n"), unclosed("t.csv:2:1"));
+  EXPECT_THAT(errors("x,y,radius\n1,2,\"3\n"), unclosed("t.csv:2:5"));
+  EXPECT_THAT(errors("x,\"y,radius\n1,2,3\n"), unclosed("t.csv:1:3"));
+  EXPECT_THAT(errors("x;y;radius\n1;2;3\n"),
+              HasSubstr("t.csv:1:1: error: the column \"x;y;radius\" is no key of [[body]]; between the "
+                        "cells of a table stand commas"));
+  EXPECT_THAT(errors("x,y,radius,restitution\n1,2,3,1.5\n"),
+              HasSubstr("t.csv:2:7: error: 'restitution' of a body must be from 0 to 1, but it is"));
+  EXPECT_THAT(errors("x,y,radius,mass,friction\n1,2,3,1,-1\n"),
+              HasSubstr("t.csv:2:9: error: 'friction' of a body must be at least 0, but it is \"-1\""));
   EXPECT_THAT(errors(""),
               HasSubstr("t.csv: error: a table of bodies begins with a line that names its columns"));
   EXPECT_THAT(errors(std::string("x,y,radius\n1,2,\0", 16)), HasSubstr("holds a zero byte"));
@@ -143,10 +158,10 @@ TEST(BodyTable, WhatIsWrongIsNamedWithItsPlace) {
 }
 
 TEST(BodyTable, AHundredThousandBodiesLoadInWellUnderASecond) {
-  std::string table = "x,y,radius,vx,vy,fill\n";
+  std::string table = "x,y,radius,vx,vy,restitution,friction,fill\n";
   for (int i = 0; i < 100000; ++i)
-    table += fmt::format("{},{},{},{},{},{}\n", 0.1 * i, 0.2 * i, 1 + i % 5, i % 7, i % 11,
-                         i % 2 == 0 ? "red" : "blue");
+    table += fmt::format("{},{},{},{},{},{},{},{}\n", 0.1 * i, 0.2 * i, 1 + i % 5, i % 7, i % 11, 1e-5 * i,
+                         2e-5 * i, i % 2 == 0 ? "red" : "blue");
   const Tabled tabled("[[bodies]]\ntable = 't.csv'\n", table);
   const std::clock_t start = std::clock();
   EXPECT_EQ(tabled.load().world.bodies.size(), 100000U);

@@ -63,12 +63,13 @@ TEST(InputLog, NamesTheLineThatIsNoEvent) {
 }
 
 /// The launches of a scene whose user plays kGame: frame, position, velocity.
-std::vector<std::string> launchesOf(const std::string& launch) {
+std::vector<std::string> launchesOf(const std::string& launch, const std::string& clock = "fps = 10") {
   const TempDir folder;
   folder.write("game.log", kGame);
   const Scene scene =
-      parseScene("duration = 1\n[clock]\nfps = 10\n[input]\nlog = 'game.log'\n[[body]]\nname = 'ball'\n"
-                 "center = [0, 0]\nradius = 1\nfixed = true\n[[launch]]\nspeed = 10\nradius = 1\n" +
+      parseScene("duration = 1\n[clock]\n" + clock +
+                     "\n[input]\nlog = 'game.log'\n[[body]]\nname = 'ball'\n"
+                     "center = [0, 0]\nradius = 1\nfixed = true\n[[launch]]\nspeed = 10\nradius = 1\n" +
                      launch,
                  folder.path() / "s.toml");
   World world(scene.world);
@@ -91,6 +92,18 @@ TEST(RecordedInput, LaunchesWhenTheKeyGoesDownTowardThePointer) {
               ElementsAre(HasSubstr("2: fire 8.94")));
   EXPECT_THAT(launchesOf("frame = 4\nfrom = 'mouse'\ntoward = [100, 100]\n"), ElementsAre("4: fire 0 10"));
   EXPECT_THAT(launchesOf("on = 'key ENTER'\nfrom = [0, 0]\ntoward = [1, 1]\n"), IsEmpty());
+}
+
+TEST(RecordedInput, BelongsToTheFramesThatTheUserSawWhateverTheirSteps) {
+  const std::string press = "on = 'key SPACE'\nfrom = [100, 0]\ntoward = 'mouse'\n";
+  const auto inFrames = ElementsAre("3: fire 0 10", HasSubstr("8: fire 8.57"));
+  for (const char* steps : {"'fixed'\ndt = 0.1", "'fixed'\ndt = 0.02", "'fixed'\ndt = 0.3",
+                            "'clamped'\ndt = 0.02", "'accumulator'\ndt = 0.02"}) {
+    EXPECT_THAT(launchesOf(press, fmt::format("fps = 10\nstep = {}", steps)), inFrames) << steps;
+  }
+  // Steps at 0.3, 0.6 and 0.9 s: the next one after 0.25 s and after 0.75 s.
+  EXPECT_THAT(launchesOf(press, "fps = 10\nstep = 'accumulator'\ndt = 0.3"),
+              ElementsAre("3: fire 0 10", HasSubstr("9: fire 8.57")));
 }
 
 TEST(RecordedInput, IsReportedWhereItIsMissingOrWrong) {

@@ -219,6 +219,27 @@ TEST(Overlay, BetweenItsStepsOnlyATrailsHeadChanges) {
   }
 }
 
+/// A picture shows the bodies of an accumulator between the last two steps, here 40 px apart.
+TEST(Overlay, TrailOfAnAccumulatorEndsWhereItsBodyIsDrawn) {
+  SceneSource source = sourceOf("[clock]\nstep = \"accumulator\"\ndt = 0.1\n[world]\ngravity = [0, 0]\n"
+                                "[[body]]\ncenter = [50, 60]\nradius = 2\nvelocity = [400, 0]\n"
+                                "[[trail]]\nfade = false\n");
+  for (int frame = 1; frame <= 40; ++frame) {
+    source.step();
+    if (frame < 12) continue; // it has begun to move
+    Picture picture;
+    source.draw(picture);
+    const Primitive* ball = firstOf(picture, Primitive::Kind::Disc);
+    ASSERT_NE(ball, nullptr);
+    double end = 0.0;
+    for (const Primitive& piece : picture.primitives) {
+      if (piece.kind == Primitive::Kind::Strip || piece.kind == Primitive::Kind::Elbow)
+        end = std::max(end, piece.high.x());
+    }
+    EXPECT_NEAR(end, ball->center.x(), 1e-9) << "frame " << frame;
+  }
+}
+
 TEST(Overlay, LayersGoBelowAndAboveTheBodies) {
   const std::string body = "[[body]]\ncenter = [50, 60]\nradius = 5\nvelocity = [200, 0]\nfill = \"red\"\n";
   for (const char* layer : {"behind", "front"}) {

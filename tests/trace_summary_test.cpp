@@ -10,6 +10,7 @@ namespace offstage::test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string summaryOf(const std::string& text) {
   const Scene scene = sceneOf(text);
@@ -60,6 +61,13 @@ TEST(TraceSummary, CountsWhatHappensAndFindsTheDeepestOverlap) {
   EXPECT_THAT(text, HasSubstr("contacts   1 collisions"));
   EXPECT_THAT(text,
               HasSubstr("overlap    at most 3 px, 0.6 of the smaller radius, bodies 0 and 1 in frame 1\n"));
+}
+
+TEST(TraceSummary, WhatIsNoNumberHasNoSign) {
+  const std::string text = summaryOf("duration = 1\n[[body]]\ncenter = [100, 100]\nradius = 5\n"
+                                     "[[force]]\ntype = 'expression'\nfx = '0/0'\n");
+  EXPECT_THAT(text, HasSubstr("momentum   (0, 0) → (nan, "));
+  EXPECT_THAT(text, Not(HasSubstr("-nan")));
 }
 
 TEST(TraceSummary, TellsOfBodiesThatComeAndGo) {

@@ -55,9 +55,11 @@ TEST(Trace, WhatIsNoNumberIsNullInJsonAndWrittenOutInCsv) {
   Scene scene = test::sceneOf("[[body]]\ncenter = [0, 0]\nradius = 0\n");
   scene.world.bodies[0].position = {std::numeric_limits<double>::quiet_NaN(),
                                     -std::numeric_limits<double>::infinity()};
+  // As x86 makes it of 0/0; ARM makes the other.
+  scene.world.bodies[0].velocity.x() = -std::numeric_limits<double>::quiet_NaN();
   const World world(scene.world);
   EXPECT_NE(traceOf(world, TraceFormat::JsonLines).find("\"x\":null,\"y\":null,"), std::string::npos);
-  EXPECT_NE(traceOf(world, TraceFormat::Csv).find("\n0,0,0,nan,-inf,"), std::string::npos);
+  EXPECT_NE(traceOf(world, TraceFormat::Csv).find("\n0,0,0,nan,-inf,nan,"), std::string::npos);
 }
 
 TEST(Trace, GroupNamesAreQuotedWhereTheFormatNeedsIt) {

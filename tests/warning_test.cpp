@@ -182,6 +182,19 @@ TEST_F(Warned, TheContactSolverIsHelpedByWhatTheWarningAdvises) {
   }
 }
 
+TEST_F(Warned, BodiesThatTheContactSolverThrowsApartAreToldToBeginApart) {
+  std::string scene = "duration = 0.1\n[world]\ngravity = [0, 0]\ncontacts = \"solver\"\n"
+                      "[[collide]]\nbetween = [\"bodies\", \"bodies\"]\n";
+  for (int i = 0; i < 10; ++i)
+    scene += "[[body]]\nradius = 10\ncenter = [" + std::to_string(200 + 3 * (i % 4)) + ", " +
+             std::to_string(200 + 3 * (i / 4)) + "]\n";
+  dir_.write("heap.toml", scene);
+  const std::string err = run({"trace", "heap.toml", "--summary"}).err;
+  EXPECT_THAT(err,
+              HasSubstr("shorter steps ([clock] substeps) help, but not where bodies overlap when they "
+                        "come: the contact solver throws those apart, so let them begin apart [energy]"));
+}
+
 TEST_F(Warned, ASlideThatPushesThroughAnEdgeOfTheContactSolverIsToldSo) {
   const auto traced = [&](const char* response) {
     dir_.write("pushed.toml", std::string(R"(

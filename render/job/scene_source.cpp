@@ -129,9 +129,9 @@ void SceneSource::note() {
   const auto* world = std::get_if<World>(&motion_);
   interpolates_ = world != nullptr && world->setup().stepping.form == Stepping::Form::Accumulator;
   if (interpolates_) static_cast<void>(world->shown(interpolated_));
-  history_.note(time(), bodies(), world != nullptr ? world->events() : std::span<const Event>());
+  history_.note(time(), frameBodies(), world != nullptr ? world->events() : std::span<const Event>());
   if (followed_.empty()) return;
-  for (const Body& body : bodies())
+  for (const Body& body : frameBodies())
     if (const auto place = followed_.find(body.id); place != followed_.end()) place->second = centerOf(body);
 }
 

@@ -20,6 +20,17 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+/// A text that is no value of TOML, as colours are: "#ff8000", "red". Those need not be tried, which takes as
+/// long as everything else that is read of a body.
+bool isBare(std::string_view text) {
+  if (text.starts_with('#')) return true;
+  const auto isLetter = [](char letter) {
+    return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z');
+  };
+  return std::all_of(text.begin(), text.end(), isLetter) && text != "true" && text != "false" &&
+         text != "inf" && text != "nan";
+}
+
 /// Takes a number off the front of `text`; all of it must be one where there is no `rest`.
 std::optional<double> takeNumber(std::string_view text, std::string_view* rest) {
   if (text.starts_with('+')) text.remove_prefix(1);
@@ -61,7 +72,8 @@ TomlValue cellValue(std::string_view key, std::string_view text, std::uint32_t l
       std::find_if(sceneKeyTable().begin(), sceneKeyTable().end(), [&](const SceneKey& candidate) {
         return candidate.table == "body" && candidate.key == key;
       });
-  if (spec->type == "string" || spec->type == "choice") return {std::string(text), line, column};
+  if (spec->type == "string" || spec->type == "choice" || isBare(text))
+    return {std::string(text), line, column};
   const auto relocate = [&](auto& self, TomlValue& value) -> void {
     value.line = line;
     value.column = column;

@@ -49,6 +49,8 @@ std::vector<BodyColumn> allColumns() {
       halfOf("ax", "acceleration", &Numbers::acceleration, 0),
       halfOf("ay", "acceleration", &Numbers::acceleration, 1),
       numberOf("mass", &Numbers::mass, Range::above(0.0)),
+      numberOf("restitution", &Numbers::restitution, Range::between(0.0, 1.0)),
+      numberOf("friction", &Numbers::friction, positive),
   };
   const std::size_t numeric = columns.size();
   for (const SceneKey& key : sceneKeyTable()) {
@@ -69,7 +71,9 @@ const std::vector<BodyColumn>& columns() {
 
 std::uint32_t BodyColumn::mask() const {
   if (kind != Kind::Single && kind != Kind::Pair) return 0;
-  if (number != nullptr) return number == &Numbers::radius ? 0x100U : 0x200U;
+  if (number == &Numbers::radius) return 0x100U;
+  if (number == &Numbers::mass) return 0x200U;
+  if (number != nullptr) return number == &Numbers::restitution ? 0x400U : 0x800U;
   const std::uint32_t shift = pair == &Numbers::place      ? 0U
                               : pair == &Numbers::size     ? 2U
                               : pair == &Numbers::velocity ? 4U

@@ -94,10 +94,12 @@ void BodyTable::addColumn(const CsvCell& cell) {
   const std::optional<BodyColumn> column = bodyColumn(cell.text);
   if (!column) {
     const std::string_view near = nearest(cell.text, bodyColumnNames());
+    const std::string hint = cell.text.find_first_of(";\t") != std::string_view::npos
+                                 ? "; between the cells of a table stand commas"
+                             : near.empty() ? "; the first line of a table names its columns"
+                                            : fmt::format("; did you mean '{}'?", near);
     errors_.add(cell.line, cell.column,
-                fmt::format("the column {} is no key of [[body]]{}", quotedText(cell.text),
-                            near.empty() ? "; the first line of a table names its columns"
-                                         : fmt::format("; did you mean '{}'?", near)));
+                fmt::format("the column {} is no key of [[body]]{}", quotedText(cell.text), hint));
     return;
   }
   const bool twice = has(column->name) || (columnMask_ & column->mask()) != 0;
@@ -110,9 +112,9 @@ void BodyTable::addColumn(const CsvCell& cell) {
 
 void BodyTable::readHeader() {
   while (const auto cell = cells_.next()) {
+    if (cells_.unclosed()) return errors_.add(cell->line, cell->column, "this quote is never closed");
     addColumn(*cell);
-    if (cells_.unclosed()) errors_.add(cell->line, cell->column, "this quote is never closed");
-    if (cell->endsRow) break;
+    if (cell->endsRow || errors_.full()) break;
   }
   if (columns_.empty() && errors_.count() == 0)
     errors_.add("a table of bodies begins with a line that names its columns");
@@ -141,7 +143,10 @@ bool BodyTable::takeRow() {
       row_[index].line = cell->line;
       row_[index].column = cell->column;
     }
-    if (cells_.unclosed()) errors_.add(cell->line, cell->column, "this quote is never closed");
+    if (cells_.unclosed()) {
+      errors_.add(cell->line, cell->column, "this quote is never closed");
+      return false;
+    }
     more = !cell->endsRow;
   }
   if (index == columns_.size()) return true;

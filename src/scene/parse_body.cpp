@@ -79,6 +79,8 @@ Body readBody(SceneBuilder& builder, const TableReader& reader, BodyNumbers& num
   numbers.velocity = reader.pair("velocity");
   numbers.acceleration = reader.pair("acceleration");
   numbers.mass = reader.number("mass", Range::above(0.0));
+  numbers.restitution = body.restitution;
+  numbers.friction = body.friction;
   return body;
 }
 
@@ -89,6 +91,8 @@ Body placed(const View& view, const BodyNumbers& numbers, Body body) {
   body.velocity = view.vector(toVec2(numbers.velocity));
   body.acceleration = view.vector(toVec2(numbers.acceleration));
   body.mass = numbers.mass;
+  body.restitution = numbers.restitution;
+  body.friction = numbers.friction;
   return body;
 }
 

@@ -30,6 +30,8 @@ struct BodyNumbers {
   std::array<double, 2> acceleration{};
   double radius = 0.0; ///< of a circle
   double mass = 1.0;
+  double restitution = 1.0;
+  double friction = 0.0;
 };
 
 /// A [[body]]'s keys without its name and what follows from its numbers: those go to `numbers`, and placed()

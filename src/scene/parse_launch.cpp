@@ -48,6 +48,14 @@ std::vector<Launch::Moment> readMoments(const TableReader& reader) {
   return moments;
 }
 
+/// The first frame from 1 on whose time is not before `time` (s).
+std::int64_t frameFrom(const Clock& clock, double time) {
+  std::int64_t frame = clock.frameAt(time);
+  if (clock.time(frame) < time) ++frame;
+  while (frame > 1 && clock.time(frame - 1) >= time) --frame; // frames may have no length
+  return std::max<std::int64_t>(frame, 1);
+}
+
 /// When the recorded user presses what 'on' names: "key SPACE", "button left".
 void readPresses(SceneBuilder& builder, const TableReader& reader, std::vector<Launch::Moment>& moments) {
   constexpr std::string_view kKey = "key ";
@@ -67,6 +75,10 @@ void readPresses(SceneBuilder& builder, const TableReader& reader, std::vector<L
   const std::string name = on->substr(key ? kKey.size() : kButton.size());
   for (const double time : builder.input->presses(key ? InputAction::KeyDown : InputAction::ButtonDown, name))
     moments.push_back({std::nullopt, time});
+  // The user saw frames. Where these do not last as long as the steps that they show, only their number
+  // tells when.
+  if (builder.scene.world.stepping.form != Stepping::Form::Fixed) return;
+  for (Launch::Moment& moment : moments) moment.frame = frameFrom(builder.scene.clock, moment.time);
 }
 
 /// The anchor of a key, or where the pointer is at each of the moments.
@@ -74,8 +86,10 @@ Anchor readTarget(SceneBuilder& builder, const TableReader& reader, std::string_
                   std::optional<Vec2> Launch::Moment::*pointer) {
   if (!builder.isPointer(reader, key)) return builder.readAnchor(reader, key).value_or(Anchor{});
   const Clock& clock = builder.scene.clock;
+  const bool pressed = reader.has("on");
   for (Launch::Moment& moment : launch.moments) {
-    const double time = moment.frame ? clock.time(std::min(*moment.frame, clock.steps())) : moment.time;
+    const double time =
+        moment.frame && !pressed ? clock.time(std::min(*moment.frame, clock.steps())) : moment.time;
     if (builder.input) moment.*pointer = builder.input->mouseAt(time);
   }
   return {};

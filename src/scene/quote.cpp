@@ -64,6 +64,7 @@ std::string quotedText(std::string_view text) {
 }
 
 std::string numberText(double value) {
+  if (std::isnan(value)) return "nan"; // whatever its sign, in which processors differ
   char digits[32];
   const bool isWhole = std::trunc(value) == value && std::fabs(value) < 1e15;
   const auto [end, error] =

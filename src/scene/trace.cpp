@@ -7,6 +7,7 @@
 #include <concepts>
 #include <cstddef>
 #include <ostream>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/core.h>
@@ -18,6 +19,9 @@ namespace {
 template <typename Value>
 void appendNumber(std::string& buffer, Value value) {
   char digits[32];
+  if constexpr (std::is_floating_point_v<Value>) {
+    if (std::isnan(value)) value = std::abs(value); // processors differ in the sign of what they make
+  }
   const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value);
   static_cast<void>(error); // 32 characters hold every shortest double and every 64-bit integer
   buffer.append(digits, end);

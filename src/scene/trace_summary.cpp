@@ -10,6 +10,15 @@
 
 namespace offstage {
 
+namespace {
+
+/// Processors differ in the sign of a NaN that they make.
+double withoutNanSign(double value) {
+  return std::isnan(value) ? std::abs(value) : value;
+}
+
+} // namespace
+
 TraceSummary::TraceSummary(const WorldSetup& setup) : rules_(setup.contacts), ruled_(setup.groups.size(), 0) {
   for (const ContactRule& rule : rules_) ruled_.at(rule.groupA) = ruled_.at(rule.groupB) = 1;
 }
@@ -19,7 +28,7 @@ void TraceSummary::add(const World& world) {
   const auto total = [&snapshot](Quantity quantity) {
     Probe probe;
     probe.quantity = quantity;
-    return valueOf(probe, snapshot);
+    return withoutNanSign(valueOf(probe, snapshot));
   };
   const std::size_t before = end_.bodies;
   end_ = {world.frame(),
@@ -107,7 +116,8 @@ std::string TraceSummary::text() const {
   text += fmt::format("momentum   ({}, {}) → ({}, {}) mass·px/s\n", start.px, start.py, end_.px, end_.py);
   text += fmt::format("kinetic    {} → {} mass·px²/s²\n", start.kinetic, end_.kinetic);
   text += fmt::format("potential  {} → {} mass·px²/s²\n", start.potential, end_.potential);
-  text += fmt::format("energy     {} → {} mass·px²/s²\n", start.energy(), end_.energy());
+  text += fmt::format("energy     {} → {} mass·px²/s²\n", withoutNanSign(start.energy()),
+                      withoutNanSign(end_.energy()));
   text += fmt::format("drift      at most {} mass·px²/s²", drift_.energy);
   if (start.energy() != 0.0)
     text += fmt::format(", {:.3g} of the energy at the start", drift_.energy / std::abs(start.energy()));

@@ -68,7 +68,7 @@ std::string textOf(const NotFinite& lost) {
                      placed ? "velocity" : "position", pointText(placed ? lost.velocity : lost.position));
 }
 
-std::string textOf(const EnergyGrowth& growth) {
+std::string textOf(const EnergyGrowth& growth, bool solver) {
   std::string text = fmt::format(
       "the bodies have gained {:.3g} times the energy that they should have, {:.3g} mass·px²/s² from nowhere",
       growth.gained / growth.usual, growth.gained);
@@ -77,7 +77,11 @@ std::string textOf(const EnergyGrowth& growth) {
     text +=
         "; \"explicit-euler\" gains energy, \"semi-implicit-euler\", \"verlet\" and \"rk4\" keep it better";
   if (growth.attract) text += "; near a point that attracts, a softening helps";
-  return text + "; shorter steps ([clock] substeps) help";
+  text += "; shorter steps ([clock] substeps) help";
+  if (solver)
+    text += ", but not where bodies overlap when they come: the contact solver throws those apart, so let "
+            "them begin apart";
+  return text;
 }
 
 std::string textOf(const LongStep& found, int substeps) {
@@ -159,7 +163,7 @@ std::string WarningText::of(const Warning& warning) const {
   struct Visitor {
     const WarningText& self;
     std::string operator()(const NotFinite& what) const { return textOf(what); }
-    std::string operator()(const EnergyGrowth& what) const { return textOf(what); }
+    std::string operator()(const EnergyGrowth& what) const { return textOf(what, self.solver_); }
     std::string operator()(const Crossing& what) const { return self.textOfCrossing(what); }
     std::string operator()(const LongStep& what) const { return textOf(what, self.substeps_); }
   };

@@ -83,6 +83,7 @@ std::optional<Warning> EnergyWatch::find(const World& world) {
   double bound = 0.0;
   double mass = 0.0;
   const Body* fastest = nullptr;
+  double most = 0.0; // kinetic, of the fastest
   auto before = known_.begin();
   std::size_t stayed = 0;
   now_.clear();
@@ -92,8 +93,11 @@ std::optional<Warning> EnergyWatch::find(const World& world) {
     if (isDriven_) known.driven = drivenBy(world, now_.size());
     while (before != known_.end() && before->id < body.id) ++before;
     if (before != known_.end() && before->id == body.id) {
-      const Vec2 way = body.position - before->position;
-      change += known.energy - before->energy - 0.5 * body.mass * dot(before->driven + known.driven, way);
+      change += known.energy - before->energy;
+      if (isDriven_) {
+        const Vec2 way = body.position - before->position;
+        change -= 0.5 * body.mass * dot(before->driven + known.driven, way);
+      }
       known.bound = before->bound;
       ++stayed;
     } else {
@@ -101,12 +105,16 @@ std::optional<Warning> EnergyWatch::find(const World& world) {
       causes_.euler = causes_.euler || (!body.fixed && body.integrator == Integrator::ExplicitEuler);
     }
     now_.push_back(known);
-    moving += motion + body.mass * dot(known.driven.cwiseAbs(), world.setup().pane);
+    moving += motion;
+    if (isDriven_) moving += body.mass * dot(known.driven.cwiseAbs(), world.setup().pane);
     for (const Force& force : snapshot.forces)
       if (std::holds_alternative<SpringForce>(force.kind)) moving += potentialEnergy(force, body, snapshot);
     bound += known.bound;
     mass += body.mass;
-    if (fastest == nullptr || motion > kinetic(*fastest)) fastest = &body;
+    if (fastest == nullptr || motion > most) {
+      fastest = &body;
+      most = motion;
+    }
   }
   const bool sameBodies = stayed == now_.size() && stayed == known_.size();
   const bool slid =

@@ -4,6 +4,7 @@
 #include "src/sim/walls.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -26,6 +27,9 @@ double reachBefore(const Body& body) {
 double reachAfter(const Body& body, int axis) {
   return body.shape == Shape::Circle ? body.radius : body.size[axis];
 }
+
+/// A share of all that is summed to a place; more than rounding can make of it.
+constexpr double kRounding = 1e-9;
 
 /// The distance at which two bodies touch, as of Contact.
 double touchOf(const Body& first, const Body& second) {
@@ -66,18 +70,34 @@ const ContactRule* SweptContacts::ruleOf(const Body& first, const Body& second) 
   return rules_.find(a, b);
 }
 
+bool SweptContacts::mayMeet(const Body& first, const Path& path, const Body& second, const Path& other,
+                            double now) const {
+  const double left = length_ - now;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double x = path.from[axis] + path.velocity[axis] * (now - path.since);
+    const double y = other.from[axis] + other.velocity[axis] * (now - other.since);
+    const double gap = std::max(y - reachBefore(second) - (x + reachAfter(first, axis)),
+                                x - reachBefore(first) - (y + reachAfter(second, axis)));
+    const double way = std::abs(other.velocity[axis] - path.velocity[axis]) * left;
+    if (gap > way + kRounding * (way + std::abs(x) + std::abs(y) + std::abs(gap))) return false;
+  }
+  return true;
+}
+
 void SweptContacts::considerBody(std::span<const Body> bodies, std::uint32_t a, std::uint32_t b, double now,
                                  Next& next) const {
-  if (a == b || gone_[b] != 0 || ruleOf(bodies[a], bodies[b]) == nullptr) return;
+  if (a == b || gone_[b] != 0) return;
   const std::uint32_t i = std::min(a, b);
   const std::uint32_t j = std::max(a, b);
-  const auto isThisPair = [&](const Next& done) { return done.first == i && done.second == j; };
-  if (std::any_of(passed_.begin(), passed_.end(), isThisPair)) return;
+  if (!mayMeet(bodies[i], paths_[i], bodies[j], paths_[j], now)) return;
+  if (ruleOf(bodies[i], bodies[j]) == nullptr) return;
   const auto impact = timeOfImpact(at(bodies, i, now), paths_[i].velocity, at(bodies, j, now),
                                    paths_[j].velocity, length_ - now);
   if (!impact) return;
   const Next found{now + impact->time, i, j, impact->normal};
-  if (found.isBefore(next)) next = found;
+  if (!found.isBefore(next)) return;
+  const auto isThisPair = [&](const Next& done) { return done.first == i && done.second == j; };
+  if (std::none_of(passed_.begin(), passed_.end(), isThisPair)) next = found;
 }
 
 void SweptContacts::considerWalls(std::span<const Body> bodies, std::uint32_t index, double now,
@@ -108,49 +128,101 @@ void SweptContacts::findNext(std::span<const Body> bodies, std::size_t fast, dou
   nexts_[fast] = next;
 }
 
-void SweptContacts::solve(std::span<Body> bodies, double h, std::span<std::uint8_t> removed,
-                          const Event& stamp, std::vector<Event>& events) {
-  if (!(h > 0.0 && std::isfinite(h))) return;
+void SweptContacts::findNear(std::span<const Body> bodies, std::uint32_t index, double now,
+                             std::vector<std::uint32_t>& found) const {
+  const Body end = at(bodies, index, length_);
+  const double way = (end.position - at(bodies, index, now).position).cwiseAbs().maxCoeff();
+  const double others = farthest_ * ((length_ - now) / length_ + kRounding);
+  if (std::isfinite(way) && std::isfinite(others)) {
+    broadphase_.query(end, way + others, found);
+  } else {
+    found = everybody_;
+  }
+  std::erase_if(found, [&](std::uint32_t other) {
+    return !mayMeet(bodies[index], paths_[index], bodies[other], paths_[other], now);
+  });
+}
+
+void SweptContacts::beginPaths(std::span<const Body> bodies, double h) {
   length_ = h;
   gone_.assign(bodies.size(), 0);
   impacts_.assign(bodies.size(), 0);
+  numbers_.assign(bodies.size(), kNobody);
   passed_.clear();
-  double longest = 0.0;
+  farthest_ = 0.0;
   everybody_.clear();
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     const Vec2 way = bodies[i].fixed ? Vec2::Zero() : Vec2(bodies[i].position - paths_[i].from);
     paths_[i].velocity = way / h;
-    if (const double far = way.cwiseAbs().maxCoeff(); far > longest) longest = far;
+    if (const double far = way.cwiseAbs().maxCoeff(); far > farthest_) farthest_ = far;
     everybody_.push_back(i);
   }
   broadphase_.begin(bodies, everybody_);
   if (near_.size() < fast_.size()) near_.resize(fast_.size());
   nexts_.resize(fast_.size());
-  for (std::size_t k = 0; k < fast_.size(); ++k) {
-    broadphase_.query(bodies[fast_[k]], 2.0 * longest, near_[k]);
+  for (std::uint32_t k = 0; k < fast_.size(); ++k) {
+    numbers_[fast_[k]] = k;
+    findNear(bodies, fast_[k], 0.0, near_[k]);
     findNext(bodies, k, 0.0);
   }
+}
 
+void SweptContacts::concern(std::span<const std::uint32_t> who) {
+  for (const std::uint32_t index : who) {
+    if (numbers_[index] != kNobody) concerned_.push_back(numbers_[index]);
+  }
+}
+
+void SweptContacts::takeNewPath(std::span<const Body> bodies, std::uint32_t index, double now) {
+  findNear(bodies, index, now, around_);
+  concern(around_);
+  if (numbers_[index] != kNobody) near_[numbers_[index]] = around_;
+  for (const std::uint32_t other : around_) {
+    if (numbers_[other] == kNobody) continue;
+    std::vector<std::uint32_t>& near = near_[numbers_[other]];
+    const auto place = std::lower_bound(near.begin(), near.end(), index);
+    if (place == near.end() || *place != index) near.insert(place, index);
+  }
+}
+
+void SweptContacts::solve(std::span<Body> bodies, double h, std::span<std::uint8_t> removed,
+                          const Event& stamp, std::vector<Event>& events) {
+  if (!(h > 0.0 && std::isfinite(h))) return;
+  beginPaths(bodies, h);
+  const auto isBefore = [&](std::uint32_t a, std::uint32_t b) { return nexts_[a].isBefore(nexts_[b]); };
+  soonest_.begin(fast_.size(), isBefore);
   while (true) {
-    const auto best = std::min_element(nexts_.begin(), nexts_.end(),
-                                       [](const Next& a, const Next& b) { return a.isBefore(b); });
-    if (best->first == kNobody) break;
-    const Next impact = *best;
-    if (impact.second < bodies.size()) {
-      meet(bodies, impact, removed, stamp, events);
-    } else {
-      hitWall(bodies, impact, stamp, events);
+    const Next impact = nexts_[soonest_.winner()];
+    if (impact.first == kNobody) break;
+    const bool isWall = impact.second >= bodies.size();
+    const std::array<std::uint32_t, 2> both{impact.first, impact.second};
+    const std::span<const std::uint32_t> met(both.data(), isWall ? 1 : 2);
+    concerned_.clear();
+    for (const std::uint32_t index : met) { // whose next may be one of these, as far as is known
+      findNear(bodies, index, impact.time, around_);
+      concern(around_);
     }
+    if (isWall) {
+      hitWall(bodies, impact, stamp, events);
+    } else {
+      meet(bodies, impact, removed, stamp, events);
+    }
+    for (const std::uint32_t index : met) {
+      farthest_ = std::max(farthest_, paths_[index].velocity.cwiseAbs().maxCoeff() * h);
+      broadphase_.move(index, at(bodies, index, h));
+    }
+    for (const std::uint32_t index : met) takeNewPath(bodies, index, impact.time);
+    concern(met);
+    std::sort(concerned_.begin(), concerned_.end());
+    concerned_.erase(std::unique(concerned_.begin(), concerned_.end()), concerned_.end());
     const auto isMet = [&](std::uint32_t index) { return index == impact.first || index == impact.second; };
-    for (std::size_t k = 0; k < fast_.size(); ++k) {
-      if (isMet(fast_[k])) near_[k] = everybody_; // its way is another now
+    for (const std::uint32_t k : concerned_) {
       if (isMet(fast_[k]) || isMet(nexts_[k].first) || isMet(nexts_[k].second)) {
         findNext(bodies, k, impact.time);
       } else if (gone_[fast_[k]] == 0 && impacts_[fast_[k]] < kMostImpacts) {
-        considerBody(bodies, fast_[k], impact.first, impact.time, nexts_[k]);
-        if (impact.second < bodies.size())
-          considerBody(bodies, fast_[k], impact.second, impact.time, nexts_[k]);
+        for (const std::uint32_t index : met) considerBody(bodies, fast_[k], index, impact.time, nexts_[k]);
       }
+      soonest_.playAgain(k, isBefore);
     }
   }
 

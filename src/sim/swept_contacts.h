@@ -5,6 +5,7 @@
 #include "src/sim/event.h"
 #include "src/sim/impact_time.h"
 #include "src/sim/rule_table.h"
+#include "src/sim/tournament.h"
 #include "src/sim/world_setup.h"
 
 #include <cstddef>
@@ -27,6 +28,10 @@ namespace offstage {
 /// either kind of removal, is gone from there on. A report lets both pass; it is made here only for pairs
 /// that are apart again when the step ends. Pairs that overlap as the step begins are left to the ordinary
 /// contacts, which follow; so is a body after kMostImpacts of them in a step.
+///
+/// Whom a body may meet, a grid of the places where the step ends tells: on the rest of its path nobody is
+/// further from the grid's place for it than the longest rest of a path. Whoever is thrown off its path gets
+/// another place. So an impact costs what stands around it, however many there are elsewhere.
 class SweptContacts {
 public:
   static constexpr int kMostImpacts = 64;
@@ -63,6 +68,17 @@ private:
 
   [[nodiscard]] Body at(std::span<const Body> bodies, std::uint32_t index, double time) const;
   [[nodiscard]] const ContactRule* ruleOf(const Body& first, const Body& second) const;
+  /// False only for two that stay apart for the rest of the step.
+  [[nodiscard]] bool mayMeet(const Body& first, const Path& path, const Body& second, const Path& other,
+                             double now) const;
+  /// Fills `found` with all that may meet a body on the rest of its path, ascending.
+  void findNear(std::span<const Body> bodies, std::uint32_t index, double now,
+                std::vector<std::uint32_t>& found) const;
+  void beginPaths(std::span<const Body> bodies, double h);
+  /// Whoever has just met somebody goes on along another path: everybody's place and neighbours after it.
+  void takeNewPath(std::span<const Body> bodies, std::uint32_t index, double now);
+  /// Notes the fast ones among `who`, whose next impact has to be looked for again.
+  void concern(std::span<const std::uint32_t> who);
   void findNext(std::span<const Body> bodies, std::size_t fast, double now);
   void considerBody(std::span<const Body> bodies, std::uint32_t a, std::uint32_t b, double now,
                     Next& next) const;
@@ -81,11 +97,16 @@ private:
   std::vector<std::uint8_t> gone_;
   std::vector<int> impacts_;
   std::vector<std::uint32_t> fast_;              ///< the continuous bodies
+  std::vector<std::uint32_t> numbers_;           ///< by body: its index in fast_, or kNobody
   std::vector<Next> nexts_;                      ///< by index into fast_
-  std::vector<std::vector<std::uint32_t>> near_; ///< by index into fast_: whom it may meet
+  std::vector<std::vector<std::uint32_t>> near_; ///< by index into fast_: whom it may meet, ascending
+  std::vector<std::uint32_t> concerned_;         ///< indices into fast_
+  std::vector<std::uint32_t> around_;            ///< whom a body may meet
+  Tournament soonest_;                           ///< among nexts_
+  double farthest_ = 0.0;                        ///< px, per axis: of all, in a whole step as fast as now
   std::vector<Next> passed_;                     ///< pairs that have met and go on through each other
   std::vector<std::uint32_t> everybody_;
-  Broadphase broadphase_;
+  Broadphase broadphase_; ///< of where the step ends
 };
 
 } // namespace offstage

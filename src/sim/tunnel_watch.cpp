@@ -1,5 +1,6 @@
 #include "src/sim/tunnel_watch.h"
 
+#include "src/sim/birth.h"
 #include "src/sim/contact.h"
 #include "src/sim/impact_time.h"
 
@@ -22,11 +23,6 @@ constexpr std::size_t kFew = 16;
 /// px: half of how wide a body is where it is narrowest.
 double halfWidth(const Body& body) {
   return body.shape == Shape::Circle ? body.radius : 0.5 * body.size.minCoeff();
-}
-
-bool isMet(const Body& body, std::span<const Event> events) {
-  return std::any_of(events.begin(), events.end(),
-                     [&](const Event& event) { return event.first == body.id || event.second == body.id; });
 }
 
 Body movedBy(Body body, const Vec2& way) {
@@ -67,6 +63,7 @@ std::optional<Warning> TunnelWatch::findPair(std::span<const Body> bodies, std::
   // Mostly no two of all ways differ by enough.
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   double narrowest = kInfinity;
+  double widest = 0.0;
   Vec2 low = Vec2::Constant(kInfinity);
   Vec2 high = Vec2::Constant(-kInfinity);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -74,9 +71,11 @@ std::optional<Warning> TunnelWatch::findPair(std::span<const Body> bodies, std::
     const Vec2 way = bodies[i].position - starts_[i];
     low = low.cwiseMin(way);
     high = high.cwiseMax(way);
-    narrowest = std::min(narrowest, halfWidth(bodies[i]));
+    const double half = halfWidth(bodies[i]);
+    narrowest = std::min(narrowest, half);
+    widest = std::max(widest, half);
   }
-  if (narrowest == kInfinity || !(length(high - low) >= kReach * 2.0 * narrowest)) return std::nullopt;
+  if (!(widest > 0.0) || !(length(high - low) >= kReach * 2.0 * narrowest)) return std::nullopt;
 
   // Of two that cross, the faster one moves at least half of what both move.
   fast_.clear();
@@ -87,34 +86,41 @@ std::optional<Warning> TunnelWatch::findPair(std::span<const Body> bodies, std::
     if (dot(way, way) > least * least && takesPart(body)) fast_.push_back({way, i});
   }
   if (fast_.empty()) return std::nullopt;
+  met_.assign(bodies.size(), 0);
+  for (const Event& event : events) {
+    for (const std::int64_t id : {event.first, event.second}) {
+      const Body* body = id < 0 ? nullptr : findBody(bodies, static_cast<std::uint32_t>(id));
+      if (body != nullptr) met_[static_cast<std::size_t>(body - bodies.data())] = 1;
+    }
+  }
+  std::erase_if(fast_, [&](const Move& move) { return met_[move.index] != 0; });
   members_.clear();
   for (std::uint32_t i = 0; i < bodies.size(); ++i)
-    if (takesPart(bodies[i])) members_.push_back(i);
+    if (met_[i] == 0 && takesPart(bodies[i])) members_.push_back(i);
   const bool few = fast_.size() <= kFew;
   if (!few) broadphase_.begin(bodies, members_);
   for (const Move& move : fast_) {
     if (few) {
       for (const std::uint32_t other : members_)
-        if (auto warning = crossing(bodies, move, other, events)) return warning;
+        if (auto warning = crossing(bodies, move, other)) return warning;
       continue;
     }
     broadphase_.query(bodies[move.index], 2.0 * move.way.cwiseAbs().maxCoeff(), near_);
     for (const std::uint32_t member : near_)
-      if (auto warning = crossing(bodies, move, members_[member], events)) return warning;
+      if (auto warning = crossing(bodies, move, members_[member])) return warning;
   }
   return std::nullopt;
 }
 
 std::optional<Warning> TunnelWatch::crossing(std::span<const Body> bodies, const Move& move,
-                                             std::uint32_t other, std::span<const Event> events) const {
+                                             std::uint32_t other) const {
   if (other == move.index) return std::nullopt;
   const Body& first = bodies[move.index];
   const Body& second = bodies[other];
   const Vec2 otherWay = second.position - starts_[other];
   const Vec2 way = move.way - otherWay;
   const double half = halfWidth(first) + halfWidth(second);
-  if (!(length(way) >= kReach * half) || !haveRule(first, second)) return std::nullopt;
-  if (isMet(first, events) || isMet(second, events)) return std::nullopt;
+  if (!(half > 0.0 && length(way) >= kReach * half) || !haveRule(first, second)) return std::nullopt;
 
   // In shares of the move; neither time is there when the two overlap at that end of it.
   const Body firstStart = movedBy(first, -move.way);
@@ -132,6 +138,14 @@ std::optional<Warning> TunnelWatch::crossing(std::span<const Body> bodies, const
   warning.group = first.group;
   warning.what = Crossing{.other = second.id, .way = length(way), .width = 2.0 * half, .step = length_};
   return warning;
+}
+
+/// Of a circle only, and only of one that is wholly inside the pane.
+bool TunnelWatch::isInside(const Body& body) const {
+  const Vec2& at = body.position;
+  const double r = body.radius;
+  return body.shape == Shape::Circle && at.x() >= r && at.y() >= r && at.x() <= pane_.x() - r &&
+         at.y() <= pane_.y() - r;
 }
 
 std::optional<Side> TunnelWatch::edgePassed(const Body& body) const {
@@ -152,6 +166,7 @@ std::optional<Warning> TunnelWatch::findEdge(std::span<const Body> bodies) {
   std::optional<Warning> warning;
   nowBehind_.clear();
   for (const Body& body : bodies) {
+    if (isInside(body)) continue; // as nearly all are
     const std::optional<Side> side = edgePassed(body);
     if (!side) continue;
     const auto before = std::lower_bound(behind_.begin(), behind_.end(), body.id,

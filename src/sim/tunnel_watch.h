@@ -47,7 +47,8 @@ private:
   [[nodiscard]] bool takesPart(const Body& body) const;
   [[nodiscard]] bool haveRule(const Body& first, const Body& second) const;
   [[nodiscard]] std::optional<Warning> crossing(std::span<const Body> bodies, const Move& move,
-                                                std::uint32_t other, std::span<const Event> events) const;
+                                                std::uint32_t other) const;
+  [[nodiscard]] bool isInside(const Body& body) const;
   [[nodiscard]] std::optional<Side> edgePassed(const Body& body) const;
 
   RuleTable rules_;
@@ -61,6 +62,7 @@ private:
   double length_ = 0.0;      ///< s
   std::vector<Vec2> starts_; ///< by index: Body::position
   std::vector<Move> fast_;
+  std::vector<std::uint8_t> met_; ///< by index: 1 when it met something in the move
   std::vector<std::uint32_t> members_, near_;
   Broadphase broadphase_;
 
