@@ -1,6 +1,7 @@
 #include "render/job/render_job.h"
 
 #include "render/job/chunked_render.h"
+#include "render/job/console.h"
 #include "render/job/frame_maker.h"
 #include "render/job/interrupt.h"
 #include "render/output/atomic_file.h"
@@ -71,10 +72,11 @@ void printSummary(const RenderResult& result, const RenderOptions& options) {
   std::string text = made.string();
   if (options.segment)
     text += fmt::format(", segment {} of {}", options.segment->number, options.segment->count);
-  text += fmt::format(": {} frames, {:.3f} s, in {:.2f} s ({:.1f}x real time)", result.frames, result.seconds,
-                      result.elapsed, result.elapsed > 0.0 ? result.seconds / result.elapsed : 0.0);
+  text += fmt::format(": {} frame{}, {:.3f} s, in {:.2f} s ({:.1f}x real time)", result.frames,
+                      result.frames == 1 ? "" : "s", result.seconds, result.elapsed,
+                      result.elapsed > 0.0 ? result.seconds / result.elapsed : 0.0);
   if (!options.out.empty()) text += fmt::format(", {} KiB", (result.bytes + 1023) / 1024);
-  fmt::print(options.out == "-" ? stderr : stdout, "{}\n", text);
+  say(options.out == "-" ? stderr : stdout, text + "\n");
 }
 
 } // namespace offstage
