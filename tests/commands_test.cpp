@@ -13,6 +13,7 @@
 namespace offstage::test {
 namespace {
 
+using ::testing::AnyOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -169,6 +170,26 @@ TEST(Commands, ResultsThatDoNotArriveAreAnErrorNotASuccess) {
     EXPECT_EQ(full.err, "offstage: error: cannot write to standard output: no space left on its disk\n")
         << verb;
   }
+}
+
+TEST(Commands, TwoOutputsInOnePlaceAreRefused) {
+  const TempDir dir;
+  const std::vector<std::vector<std::string>> cases{{"-o", dir / "x.mp4", "--hash", dir / "x.mp4"},
+                                                    {"-o", dir / "x.raw", "--hash", dir / "./x.raw"},
+                                                    {"-o", dir / "p%03d.png", "--poster", dir / "p004.png"},
+                                                    {"--hash", dir / "h.png", "--poster", dir / "h.png"},
+                                                    {"-o", dir / "x.mp4", "--hash", "-"}};
+  for (const std::vector<std::string>& options : cases) {
+    std::vector<std::string> arguments{"render", scene("fall"), "--duration", "0.1"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProcessResult result = offstage(arguments);
+    EXPECT_EQ(result.status, 2) << options.back();
+    EXPECT_THAT(result.err, AnyOf(HasSubstr("cannot both be"), HasSubstr("--hash writes to a file")));
+    EXPECT_THAT(dir.names(), IsEmpty()) << options.back();
+  }
+  const ProcessResult apart = offstage(
+      {"render", scene("fall"), "--duration", "0.1", "-o", dir / "p%03d.png", "--poster", dir / "p4.png"});
+  EXPECT_EQ(apart.status, 0) << apart.err;
 }
 
 TEST(Commands, CtrlCBeforeTheFirstChunkEndsWith130AndLeavesNothing) {

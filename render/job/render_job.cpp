@@ -5,6 +5,8 @@
 #include "render/job/frame_maker.h"
 #include "render/job/interrupt.h"
 #include "render/output/atomic_file.h"
+#include "render/output/file_error.h"
+#include "render/output/frame_pattern.h"
 #include "render/output/output_kind.h"
 #include "render/output/sink.h"
 #include "src/sim/error.h"
@@ -13,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -55,6 +58,21 @@ RenderResult renderStream(Source& source, const RenderOptions& options) {
   return {schedule.frames(), schedule.seconds(), elapsed.count(), bytes()};
 }
 
+/// Two outputs in one place: the second would replace the first.
+void requireApart(std::string_view option, const std::filesystem::path& out, std::string_view otherOption,
+                  const std::filesystem::path& other) {
+  if (out.empty() || other.empty() || out == "-") return;
+  const std::filesystem::path place = std::filesystem::weakly_canonical(other);
+  bool same = std::filesystem::weakly_canonical(out) == place;
+  if (!same && option == "-o" && outputKind(out) == OutputKind::PngSequence) {
+    const FramePattern pattern(std::filesystem::weakly_canonical(out));
+    same = pattern.folder() == place.parent_path() && pattern.numberOf(place.filename().native()).has_value();
+  }
+  if (same)
+    throw Error(ExitCode::BadInput,
+                fmt::format("{} and {} cannot both be {}", option, otherOption, quoted(other)));
+}
+
 } // namespace
 
 RenderResult render(Source& source, const RenderOptions& options) {
@@ -65,6 +83,11 @@ RenderResult render(Source& source, const RenderOptions& options) {
 void requireOutput(const RenderOptions& options) {
   if (options.out.empty() && options.hashFile.empty() && options.poster.empty())
     throw Error(ExitCode::BadInput, "nothing to make: give -o OUT (or --hash FILE, or --poster FILE)");
+  if (options.hashFile == "-")
+    throw Error(ExitCode::BadInput, "--hash writes to a file, not to standard output");
+  requireApart("-o", options.out, "--hash", options.hashFile);
+  requireApart("-o", options.out, "--poster", options.poster);
+  requireApart("--hash", options.hashFile, "--poster", options.poster);
 }
 
 void printSummary(const RenderResult& result, const RenderOptions& options) {
