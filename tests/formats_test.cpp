@@ -223,6 +223,27 @@ TEST(Apng, VariableRateFollowsTheRecordingToTheMillisecond) {
   EXPECT_EQ(compareFrames(frames[1].frame, lectureFrame(40, 30, 3)).worst, 0);
 }
 
+TEST(Quality, EachLevelIsCloserToTheFramesAndHasALargerFile) {
+  const TempDir dir;
+  double worse = 255.0;
+  std::int64_t smaller = 0;
+  for (const Quality quality : {Quality::Draft, Quality::Good, Quality::High}) {
+    SinkFormat format = formatOf(320, 240, 30.0);
+    format.quality = quality;
+    const std::filesystem::path file = dir / (std::string(qualityName(quality)) + ".mp4");
+    const std::int64_t bytes = writeOutput(file, format, fixedTimings(kFrames, 30.0)).bytes;
+    double mean = 0.0;
+    int k = 0;
+    for (const ShownFrame& shown : decodeFrames(file))
+      mean += compareFrames(shown.frame, lectureFrame(320, 240, k++)).mean / kFrames;
+    EXPECT_EQ(k, kFrames);
+    EXPECT_LT(mean, worse) << qualityName(quality);
+    EXPECT_GT(bytes, smaller) << qualityName(quality);
+    worse = mean;
+    smaller = bytes;
+  }
+}
+
 TEST(Joining, TellsHowFarItIsAndEndsWithWhatItsWatchThrows) {
   for (const std::string name : {"x.mp4", "x.webm", "x.gif", "x.apng", "x%d.png"}) {
     const TempDir dir;

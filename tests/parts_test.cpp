@@ -107,10 +107,13 @@ TEST(Parts, TouchNothingThatIsNotTheirs) {
   ASSERT_EQ(mkfifo((dir / "d.mp4.parts" / "manifest").c_str(), 0600), 0);
   std::filesystem::create_directory(dir / "e.mp4.parts");
   std::filesystem::create_symlink(dir / "a.mp4.parts", dir / "e.mp4.parts" / "lock");
-  for (const auto& [name, part] :
-       {std::pair("c.mp4", "000000.chunk"), {"d.mp4", "manifest"}, {"e.mp4", "lock"}})
-    EXPECT_THAT(errorOf([&] { const Parts parts(dir / name, manifestOf("a"), Parts::Use::Whole, true); }),
-                AllOf(StartsWith("2: "), HasSubstr(part), HasSubstr("move it away")));
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"c.mp4", "000000.chunk"}, {"d.mp4", "manifest"}, {"e.mp4", "lock"}};
+  for (const auto& entry : cases) {
+    EXPECT_THAT(
+        errorOf([&] { const Parts parts(dir / entry.first, manifestOf("a"), Parts::Use::Whole, true); }),
+        AllOf(StartsWith("2: "), HasSubstr(entry.second), HasSubstr("move it away")));
+  }
 }
 
 TEST(Parts, TheLockGoesLast) {

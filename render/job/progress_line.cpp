@@ -1,6 +1,7 @@
 #include "render/job/progress_line.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -12,7 +13,7 @@ constexpr int kLeastBar = 5; ///< columns; a shorter one says less than the numb
 constexpr int kBarFrame = 3; ///< columns of its brackets and the space behind it
 
 std::string clockText(double seconds) {
-  const auto whole = static_cast<std::int64_t>(seconds + 0.5);
+  const std::int64_t whole = std::llround(seconds);
   if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
   return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
