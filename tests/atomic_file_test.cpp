@@ -97,11 +97,14 @@ TEST(AtomicFile, RefusesWhatCannotBeWrittenWithTheReason) {
             text("none/a") + "the folder '" + (dir / "none").native() + "' does not exist");
   EXPECT_EQ(openError(dir / "file/a"),
             text("file/a") + "a part of '" + (dir / "file").native() + "' is not a folder");
+  fs::create_symlink("none/a", dir / "link");
+  EXPECT_EQ(openError(dir / "link"),
+            text("none/a") + "the folder '" + (dir / "none").native() + "' does not exist");
   EXPECT_EQ(openError(dir / "loop"), text("loop") + "its symbolic links lead in a circle");
   EXPECT_THAT(openError(dir / "fifo"), StartsWith(text("fifo") + "it is a device, a pipe or a socket"));
   EXPECT_THAT(openError("/dev/null"), StartsWith("2: cannot write '/dev/null': it is a device"));
   EXPECT_EQ(openError(dir / std::string(256, 'n')), text(std::string(256, 'n')) + "the name is too long");
-  EXPECT_THAT(dir.names(), ElementsAre("fifo", "file", "loop")) << "nothing left behind";
+  EXPECT_THAT(dir.names(), ElementsAre("fifo", "file", "link", "loop")) << "nothing left behind";
 }
 
 TEST(AtomicFile, RefusesFoldersAndFilesWithoutPermission) {
@@ -128,6 +131,24 @@ TEST(AtomicFile, RefusesFoldersAndFilesWithoutPermission) {
                          : 2;
             }),
             0);
+}
+
+TEST(AtomicFile, InAStickyFolderOnlyTheOwnerReplacesAFile) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can make a file of another owner";
+  const TempDir dir;
+  chmod(dir.path().c_str(), 01777);
+  writeFile(dir / "shared", "precious");
+  chmod((dir / "shared").c_str(), 0666);
+  EXPECT_EQ(openError(dir / "shared"), "no error") << "root may";
+  EXPECT_EQ(inChild([&dir] {
+              test::becomeNobody();
+              const std::string expected = "2: cannot write '" + (dir / "shared").native() +
+                                           "': in the folder '" + dir.path().native() +
+                                           "' only its owner may replace a file";
+              return openError(dir / "shared") == expected && openError(dir / "mine") == "no error" ? 0 : 1;
+            }),
+            0);
+  EXPECT_EQ(readFile(dir / "shared"), "precious");
 }
 
 TEST(AtomicFile, ErrorsOfADiskAreWorthARetryAndOthersAreNot) {

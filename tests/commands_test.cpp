@@ -13,6 +13,7 @@
 namespace offstage::test {
 namespace {
 
+using ::testing::AnyOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -134,6 +135,61 @@ TEST(Commands, AClosedPipeIsAnErrorNotASilentDeath) {
   EXPECT_NE(result.status, 0);
   EXPECT_LT(result.status, 128) << "killed by a signal";
   EXPECT_THAT(result.err, HasSubstr("error"));
+}
+
+TEST(Commands, ARenderOutlivesWhoeverReadsItsMessages) {
+  const TempDir dir;
+  const std::vector<std::string> render{"render", scene("fall"), "-o", dir / "x.gif", "--progress", "json"};
+  ProcessOptions nobodyReads;
+  nobodyReads.closedOutput = true;
+  nobodyReads.closedErrors = true;
+  EXPECT_EQ(offstage(render, nobodyReads).status, 0);
+  EXPECT_THAT(dir.names(), ElementsAre("x.gif"));
+  const std::string expected = readFile(dir / "x.gif");
+
+  // With nothing behind the numbers 0 to 2 the first files opened would take them, and get the messages.
+  for (const std::string closed : {"<&- >&- 2>&-", "2>&-", ">&-", ">/dev/full 2>/dev/full"}) {
+    for (const std::string jobs : {"0", "2"}) {
+      std::filesystem::remove(dir / "x.gif");
+      std::vector<std::string> command{"/bin/sh", "-c", "exec \"$@\" " + closed, "sh",
+                                       OFFSTAGE_BINARY_DIR "/offstage"};
+      command.insert(command.end(), render.begin(), render.end());
+      command.insert(command.end(), {"--jobs", jobs});
+      EXPECT_EQ(runProcess(command).status, 0) << closed;
+      EXPECT_TRUE(readFile(dir / "x.gif") == expected) << closed << " with " << jobs << " jobs";
+    }
+  }
+}
+
+TEST(Commands, ResultsThatDoNotArriveAreAnErrorNotASuccess) {
+  const TempDir dir;
+  for (const std::string verb : {"check", "trace"}) {
+    const ProcessResult full = runProcess({"/bin/sh", "-c", "exec \"$@\" >/dev/full", "sh",
+                                           OFFSTAGE_BINARY_DIR "/offstage", verb, scene("fall")});
+    EXPECT_EQ(full.status, 75) << verb;
+    EXPECT_EQ(full.err, "offstage: error: cannot write to standard output: no space left on its disk\n")
+        << verb;
+  }
+}
+
+TEST(Commands, TwoOutputsInOnePlaceAreRefused) {
+  const TempDir dir;
+  const std::vector<std::vector<std::string>> cases{{"-o", dir / "x.mp4", "--hash", dir / "x.mp4"},
+                                                    {"-o", dir / "x.raw", "--hash", dir / "./x.raw"},
+                                                    {"-o", dir / "p%03d.png", "--poster", dir / "p004.png"},
+                                                    {"--hash", dir / "h.png", "--poster", dir / "h.png"},
+                                                    {"-o", dir / "x.mp4", "--hash", "-"}};
+  for (const std::vector<std::string>& options : cases) {
+    std::vector<std::string> arguments{"render", scene("fall"), "--duration", "0.1"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProcessResult result = offstage(arguments);
+    EXPECT_EQ(result.status, 2) << options.back();
+    EXPECT_THAT(result.err, AnyOf(HasSubstr("cannot both be"), HasSubstr("--hash writes to a file")));
+    EXPECT_THAT(dir.names(), IsEmpty()) << options.back();
+  }
+  const ProcessResult apart = offstage(
+      {"render", scene("fall"), "--duration", "0.1", "-o", dir / "p%03d.png", "--poster", dir / "p4.png"});
+  EXPECT_EQ(apart.status, 0) << apart.err;
 }
 
 TEST(Commands, CtrlCBeforeTheFirstChunkEndsWith130AndLeavesNothing) {

@@ -223,5 +223,48 @@ TEST(Apng, VariableRateFollowsTheRecordingToTheMillisecond) {
   EXPECT_EQ(compareFrames(frames[1].frame, lectureFrame(40, 30, 3)).worst, 0);
 }
 
+TEST(Quality, EachLevelIsCloserToTheFramesAndHasALargerFile) {
+  const TempDir dir;
+  double worse = 255.0;
+  std::int64_t smaller = 0;
+  for (const Quality quality : {Quality::Draft, Quality::Good, Quality::High}) {
+    SinkFormat format = formatOf(320, 240, 30.0);
+    format.quality = quality;
+    const std::filesystem::path file = dir / (std::string(qualityName(quality)) + ".mp4");
+    const std::int64_t bytes = writeOutput(file, format, fixedTimings(kFrames, 30.0)).bytes;
+    double mean = 0.0;
+    int k = 0;
+    for (const ShownFrame& shown : decodeFrames(file))
+      mean += compareFrames(shown.frame, lectureFrame(320, 240, k++)).mean / kFrames;
+    EXPECT_EQ(k, kFrames);
+    EXPECT_LT(mean, worse) << qualityName(quality);
+    EXPECT_GT(bytes, smaller) << qualityName(quality);
+    worse = mean;
+    smaller = bytes;
+  }
+}
+
+TEST(Joining, TellsHowFarItIsAndEndsWithWhatItsWatchThrows) {
+  for (const std::string name : {"x.mp4", "x.webm", "x.gif", "x.apng", "x%d.png"}) {
+    const TempDir dir;
+    const SinkFormat format = formatOf(32, 24, 30.0);
+    std::int64_t most = 0;
+    const auto countTo = [&most](std::int64_t joined) { most = std::max(most, joined); };
+    writeOutput(dir / name, format, fixedTimings(kFrames, 30.0), {}, countTo);
+    EXPECT_EQ(most, kFrames) << name;
+
+    if (name == "x%d.png") continue; // whose pictures stand there before
+    writeFile(dir / name, "precious");
+    const std::string error = errorOf([&] {
+      writeOutput(dir / name, format, fixedTimings(kFrames, 30.0), {}, [](std::int64_t joined) {
+        if (joined > kFrames / 2) throw Error(ExitCode::Interrupted, "enough");
+      });
+    });
+    EXPECT_EQ(error, "130: enough") << name;
+    EXPECT_EQ(readFile(dir / name), "precious") << name;
+    EXPECT_EQ(dir.names().size(), 1U) << name;
+  }
+}
+
 } // namespace
 } // namespace offstage::test

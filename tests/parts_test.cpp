@@ -3,8 +3,14 @@
 #include "tests/support/temp_dir.h"
 #include "tests/support/test_frames.h"
 
+#include <array>
 #include <filesystem>
 #include <string>
+#include <sys/inotify.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -68,7 +74,8 @@ TEST(Parts, StayWithTheirChunksForTheSameRenderOnly) {
   }
   {
     const Parts parts(dir / "x.mp4", manifestOf("b"), Parts::Use::Whole, true);
-    EXPECT_THAT(parts.notice(), AllOf(StartsWith("starting over: "), HasSubstr("(the scene differ)")));
+    EXPECT_THAT(parts.notice(), AllOf(StartsWith("starting over: "),
+                                      HasSubstr("another render, which differs in the scene")));
     EXPECT_THAT(dir.names("x.mp4.parts"), ElementsAre("lock", "manifest"));
   }
 }
@@ -93,6 +100,57 @@ TEST(Parts, TouchNothingThatIsNotTheirs) {
   EXPECT_THAT(errorOf([&] { const Parts parts(dir / "b.mp4", manifestOf("a"), Parts::Use::Whole, false); }),
               AllOf(StartsWith("2: "), HasSubstr("thesis.tex")));
   EXPECT_THAT(dir.names("b.mp4.parts"), ElementsAre("thesis.tex"));
+
+  // Of a part's name, but nothing that a part can be; opening the pipe would wait for ever.
+  std::filesystem::create_directories(dir / "c.mp4.parts" / "000000.chunk");
+  std::filesystem::create_directory(dir / "d.mp4.parts");
+  ASSERT_EQ(mkfifo((dir / "d.mp4.parts" / "manifest").c_str(), 0600), 0);
+  std::filesystem::create_directory(dir / "e.mp4.parts");
+  std::filesystem::create_symlink(dir / "a.mp4.parts", dir / "e.mp4.parts" / "lock");
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"c.mp4", "000000.chunk"}, {"d.mp4", "manifest"}, {"e.mp4", "lock"}};
+  for (const auto& entry : cases) {
+    EXPECT_THAT(
+        errorOf([&] { const Parts parts(dir / entry.first, manifestOf("a"), Parts::Use::Whole, true); }),
+        AllOf(StartsWith("2: "), HasSubstr(entry.second), HasSubstr("move it away")));
+  }
+}
+
+TEST(Parts, TheLockGoesLast) {
+  const TempDir dir;
+  Parts parts(dir / "x.mp4", manifestOf("a"), Parts::Use::Whole, true);
+  for (int chunk = 0; chunk < 20; ++chunk) test::writeFile(parts.chunk(chunk), "chunk");
+  const int watch = inotify_init1(IN_CLOEXEC | IN_NONBLOCK);
+  ASSERT_GE(watch, 0);
+  ASSERT_GE(inotify_add_watch(watch, parts.folder().c_str(), IN_DELETE), 0);
+  parts.removeAll();
+  std::vector<std::string> removed;
+  alignas(inotify_event) std::array<char, 65536> buffer{};
+  const ssize_t size = read(watch, buffer.data(), buffer.size());
+  close(watch);
+  for (ssize_t at = 0; at < size;) {
+    const auto* event = reinterpret_cast<const inotify_event*>(buffer.data() + at);
+    if (event->len > 0) removed.emplace_back(event->name);
+    at += static_cast<ssize_t>(sizeof(inotify_event) + event->len);
+  }
+  ASSERT_EQ(removed.size(), 22U); // and the manifest
+  EXPECT_EQ(removed.back(), "lock") << "another run could begin while this one still removes";
+  EXPECT_THAT(dir.names(), IsEmpty());
+}
+
+TEST(Parts, AnyNameThatAFileCanHaveIsGoodEnough) {
+  const TempDir dir;
+  for (const std::string& stem : {std::string(249, 'a'), std::string(250, 'a'), std::string(251, 'a')}) {
+    const std::string name = stem + ".mp4";
+    EXPECT_EQ(errorOf([&] { const Parts parts(dir / name, manifestOf("a"), Parts::Use::Whole, true); }),
+              "no error")
+        << name.size() << " characters";
+  }
+  const std::string longName = std::string(120, 'b') + "\xC3\xA9" + std::string(128, 'b') + ".mp4";
+  EXPECT_EQ(Parts::folderFor("out/" + longName).parent_path(), "out");
+  EXPECT_EQ(Parts::folderFor(longName), Parts::folderFor(longName));
+  EXPECT_NE(Parts::folderFor(longName), Parts::folderFor(longName.substr(0, 250) + "kv"));
+  EXPECT_EQ(Parts::folderFor("out/x.mp4"), "out/x.mp4.parts");
 }
 
 TEST(Parts, TwoRunsOnOneOutputDoNotMeet) {

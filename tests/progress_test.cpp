@@ -1,4 +1,5 @@
 #include "render/job/progress.h"
+#include "render/job/progress_line.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -49,6 +50,35 @@ TEST(Progress, SaysNothingWhenPipedOrSwitchedOff) {
   };
   EXPECT_EQ(printed(ProgressMode::Auto, all), "");
   EXPECT_EQ(printed(ProgressMode::None, all), "");
+}
+
+TEST(ProgressLine, FillsItsBarByWhatIsDoneAndFitsTheTerminal) {
+  ProgressState state;
+  state.done = 150;
+  state.frames = 300;
+  state.fps = 75.2;
+  state.speed = 1.25;
+  state.eta = 2.0;
+  state.bytes = 20480;
+  const std::string numbers = "150/300 frames  75 fps  1.2x  ETA 0:02  20 KiB";
+  EXPECT_EQ(progressLine(state, 80), "[##############..............] " + numbers);
+  EXPECT_EQ(progressLine(state, 200), progressLine(state, 80));
+  EXPECT_EQ(progressLine(state, 60), "[#####.....] " + numbers);
+  EXPECT_EQ(progressLine(state, 50), numbers);
+  EXPECT_EQ(progressLine(state, 20), "150/300 frames  75 ");
+  EXPECT_EQ(progressLine(state, 0), "");
+  for (int columns = 1; columns < 120; ++columns)
+    EXPECT_LT(progressLine(state, columns).size(), static_cast<std::size_t>(columns));
+}
+
+TEST(ProgressLine, PromisesNoEndBeforeItKnowsASpeed) {
+  ProgressState state;
+  state.frames = 300;
+  EXPECT_NE(progressLine(state, 80).find("ETA -:--"), std::string::npos) << progressLine(state, 80);
+  EXPECT_NE(progressJson(state).find("\"eta\":null,"), std::string::npos) << progressJson(state);
+  state.eta = 3725.0;
+  EXPECT_NE(progressLine(state, 80).find("ETA 1:02:05"), std::string::npos) << progressLine(state, 80);
+  EXPECT_NE(progressJson(state).find("\"eta\":3725.0,"), std::string::npos) << progressJson(state);
 }
 
 } // namespace

@@ -335,7 +335,7 @@ TEST(Sound, AChangedNarrationStartsARenderOver) {
   writeWav(dir / "a.wav", tone(880, 1.0, 0.1, 48000), 48000);
   const ProcessResult joined = offstage({"join", "-o", out, scene});
   EXPECT_EQ(joined.status, 2);
-  EXPECT_THAT(joined.err, HasSubstr("were made from something else (the scene differ)"));
+  EXPECT_THAT(joined.err, HasSubstr("were made from something else, which differs in the scene"));
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "render/job/chunk_job.h"
 #include "render/job/command_line.h"
 #include "render/job/fingerprint.h"
+#include "render/job/interrupt.h"
 #include "render/job/notice.h"
 #include "render/job/processors.h"
 #include "render/job/sidecar.h"
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <numeric>
 
@@ -74,7 +76,8 @@ public:
     const std::int64_t frames = plan_.begin(endChunk_) - plan_.begin(firstChunk_);
     Progress progress(options_.progress, frames, seconds(), state_.frames());
     makeMissing(parts, missing, progress);
-    const std::int64_t bytes = options_.segment ? state_.bytes() : join(parts);
+    const auto watch = [&](std::int64_t /*joined*/) { progress.update(state_.frames(), state_.bytes()); };
+    const std::int64_t bytes = options_.segment ? state_.bytes() : join(parts, watch);
     if (!options_.hashFile.empty()) writeHashes(parts);
     if (!options_.segment) parts.removeAll();
     progress.finish(bytes);
@@ -86,9 +89,10 @@ public:
     const bool hashes = stored && stored->values(kHashes) == std::vector<std::string>{"yes"};
     const Manifest mine = manifest(hashes);
     if (!stored || *stored != mine) {
-      throw Error(ExitCode::BadInput, fmt::format("the parts in {} were made from something else ({} differ)",
-                                                  quoted(Parts::folderFor(options_.out)),
-                                                  stored ? stored->differences(mine) : "the manifest"));
+      throw Error(ExitCode::BadInput,
+                  fmt::format("the parts in {} were made from something else, which differs in {}",
+                              quoted(Parts::folderFor(options_.out)),
+                              stored ? stored->differences(mine) : "the manifest"));
     }
     if (!hashes && !options_.hashFile.empty())
       throw Error(ExitCode::BadInput, "--hash: the segments were rendered without it");
@@ -101,9 +105,12 @@ public:
               quoted(parts.folder()), missing.size(), plan_.chunks(), plan_.begin(missing.front()),
               plan_.begin(missing.front() + 1) - 1));
     }
-    const std::int64_t bytes = join(parts);
+    Progress progress(options_.progress, plan_.frames(), seconds());
+    const std::int64_t bytes =
+        join(parts, [&](std::int64_t joined) { progress.update(joined, state_.bytes()); });
     if (!options_.hashFile.empty()) writeHashes(parts);
     parts.removeAll();
+    progress.finish(bytes);
     return {plan_.frames(), seconds(), elapsed(), bytes};
   }
 
@@ -190,7 +197,11 @@ private:
                        endChunk_ - firstChunk_, quoted(parts.folder()));
   }
 
-  std::int64_t join(const Parts& parts) {
+  std::int64_t join(const Parts& parts, const std::function<void(std::int64_t joined)>& watch) {
+    output_->setJoinWatch([&watch](std::int64_t joined) {
+      throwIfInterrupted();
+      watch(joined);
+    });
     try {
       return joinChunks(parts);
     } catch (const Error& error) {

@@ -1,12 +1,15 @@
 #include "render/job/command_line.h"
 
+#include "render/job/console.h"
 #include "render/job/number_option.h"
+#include "render/output/file_error.h"
 #include "src/scene/diagnostic.h"
 
 #include <charconv>
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -175,28 +178,37 @@ RenderOptions parseRenderOptions(const std::vector<std::string>& arguments) {
 }
 
 int runCommandLine(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& action) {
-  const auto status = [](ExitCode code) { return static_cast<int>(code); };
+  const auto fail = [](ExitCode code, const std::string& text) {
+    say(stderr, text + "\n");
+    return static_cast<int>(code);
+  };
+  const auto failWith = [&fail](ExitCode code, std::string_view why) {
+    return fail(code, fmt::format("offstage: error: {}", why));
+  };
+  occupyStandardStreams();
   try {
     app.parse(argc, argv);
-    return action();
+    const int status = action();
+    if (status == static_cast<int>(ExitCode::Done)) requireResultsWritten();
+    return status;
   } catch (const CLI::Success& help) {
     app.exit(help); // --help and --version go to stdout
-    return status(ExitCode::Done);
+    return static_cast<int>(ExitCode::Done);
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "offstage: error: {}\nRun with --help for more information.\n", error.what());
-    return status(ExitCode::BadInput);
+    return failWith(ExitCode::BadInput,
+                    fmt::format("{}\nRun with --help for more information.", error.what()));
   } catch (const SceneError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return status(error.code());
+    return fail(error.code(), error.what());
   } catch (const Error& error) {
-    fmt::print(stderr, "offstage: error: {}\n", error.what());
-    return status(error.code());
+    return failWith(error.code(), error.what());
   } catch (const std::bad_alloc&) {
-    std::fputs("offstage: error: out of memory\n", stderr);
-    return status(ExitCode::Transient);
+    return failWith(ExitCode::Transient, "out of memory");
+  } catch (const std::system_error& error) {
+    // {fmt} throws one where standard output takes no more.
+    if (std::ferror(stdout) == 0) return failWith(ExitCode::BadInput, error.what());
+    return failWith(ExitCode::Transient, standardOutputError(error.code().value()).what());
   } catch (const std::exception& error) {
-    fmt::print(stderr, "offstage: error: {}\n", error.what());
-    return status(ExitCode::BadInput);
+    return failWith(ExitCode::BadInput, error.what());
   }
 }
 

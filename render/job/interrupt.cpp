@@ -33,7 +33,7 @@ void installSignalHandlers() {
 
 void throwIfInterrupted() {
   if (const int signal = pendingSignal; signal != 0)
-    throw Error(static_cast<ExitCode>(128 + signal), "interrupted; nothing was left under the output's name");
+    throw Error(static_cast<ExitCode>(128 + signal), "interrupted: the output is not finished");
 }
 
 } // namespace offstage

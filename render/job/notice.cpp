@@ -1,5 +1,7 @@
 #include "render/job/notice.h"
 
+#include "render/job/console.h"
+
 #include <cstdio>
 #include <sstream>
 
@@ -10,7 +12,7 @@ namespace offstage {
 void printNotice(const std::string& notice) {
   std::istringstream lines(notice);
   for (std::string line; std::getline(lines, line);)
-    if (!line.empty()) fmt::print(stderr, "offstage: {}\n", line);
+    if (!line.empty()) say(stderr, fmt::format("offstage: {}\n", line));
 }
 
 } // namespace offstage

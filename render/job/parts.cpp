@@ -2,6 +2,7 @@
 
 #include "render/output/atomic_file.h"
 #include "render/output/file_error.h"
+#include "render/output/stream_hash.h"
 #include "src/sim/error.h"
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include <unistd.h>
 #include <vector>
 
+#include <climits>
 #include <fmt/format.h>
 
 namespace offstage {
@@ -24,6 +26,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr std::string_view kFolderEnding = ".parts";
 constexpr const char* kLock = "lock";
 constexpr const char* kManifest = "manifest";
 constexpr std::string_view kChunkEnding = ".chunk";
@@ -48,6 +51,13 @@ bool isOwn(std::string_view name) {
          isNumbered(name, kHashEnding) || isTemporary(name);
 }
 
+/// A file and no link, nor anything that hangs when it is opened; or gone meanwhile, with another run's end.
+bool isPlain(const fs::path& path) {
+  std::error_code ignored;
+  const fs::file_type type = fs::symlink_status(path, ignored).type();
+  return type == fs::file_type::regular || type == fs::file_type::not_found;
+}
+
 std::vector<std::string> namesIn(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code error;
@@ -59,9 +69,13 @@ std::vector<std::string> namesIn(const fs::path& folder) {
 } // namespace
 
 fs::path Parts::folderFor(const fs::path& out) {
-  fs::path folder = out;
-  folder += ".parts";
-  return folder;
+  const std::string name = out.filename().native();
+  if (name.size() + kFolderEnding.size() <= NAME_MAX)
+    return out.parent_path() / fmt::format("{}{}", name, kFolderEnding);
+  StreamHash hash; // keeps apart what begins alike
+  hash.add(name.data(), name.size());
+  const std::string ending = fmt::format(".{:016x}{}", hash.value(), kFolderEnding);
+  return out.parent_path() / fmt::format("{}{}", shortened(name, NAME_MAX - ending.size()), ending);
 }
 
 fs::path Parts::manifestFor(const fs::path& out) {
@@ -103,7 +117,7 @@ void Parts::requireOwn() const {
                             quoted(folder_)));
   }
   for (const std::string& name : namesIn(folder_)) {
-    if (isOwn(name)) continue;
+    if (isOwn(name) && isPlain(folder_ / name)) continue;
     throw Error(ExitCode::BadInput,
                 fmt::format("the unfinished parts of the output go to the folder {}, but it holds "
                             "{}, which is none of them: move it away",
@@ -152,11 +166,12 @@ void Parts::takeOver(const Manifest& manifest, bool resume) {
     if (use_ == Use::Whole) removeTemporaries();
   } else {
     if (any && resume)
-      notice_ = fmt::format("starting over: {} holds parts of another render ({})", quoted(folder_),
-                            there ? there->differences(manifest) + " differ" : "without a manifest");
+      notice_ =
+          fmt::format("starting over: {} holds parts of another render, {}", quoted(folder_),
+                      there ? "which differs in " + there->differences(manifest) : "without a manifest");
     if (!tryLock(LOCK_EX)) // a segment that shares the folder must not empty it
       throw Error(ExitCode::Transient, fmt::format("other segments are being made in {}", quoted(folder_)));
-    removeOwn(false);
+    removeOwn();
     AtomicFile file(folder_ / kManifest);
     file.write(manifest.text());
     file.commit();
@@ -184,16 +199,18 @@ void Parts::removeTemporaries() const {
     if (isTemporary(name)) fs::remove(folder_ / name, ignored);
 }
 
-void Parts::removeOwn(bool lockToo) const {
+void Parts::removeOwn() const {
   std::error_code ignored;
   for (const std::string& name : namesIn(folder_))
-    if (isOwn(name) && (lockToo || name != kLock)) fs::remove(folder_ / name, ignored);
+    if (isOwn(name) && name != kLock) fs::remove(folder_ / name, ignored);
 }
 
 void Parts::removeAll() {
-  removeOwn(true);
+  removeOwn();
+  // Last: whoever comes when the lock's file is gone makes another and holds it at once.
   std::error_code ignored;
-  fs::remove(folder_, ignored);
+  fs::remove(folder_ / kLock, ignored);
+  fs::remove(folder_, ignored); // not if someone has come
   close(lock_);
   lock_ = -1;
 }

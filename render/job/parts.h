@@ -44,7 +44,7 @@ private:
   bool tryLock(int operation);
   void takeOver(const Manifest& manifest, bool resume);
   void requireOwn() const;
-  void removeOwn(bool lockToo) const;
+  void removeOwn() const; ///< all but the lock
 
   std::filesystem::path folder_;
   Use use_;

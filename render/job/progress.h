@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 
@@ -37,7 +38,7 @@ private:
   std::FILE* stream_;
   SteadyClock::time_point start_ = SteadyClock::now();
   SteadyClock::time_point shown_{};
-  bool lineOpen_ = false;
+  std::size_t shownColumns_ = 0; ///< of the bar on show; 0: none
 };
 
 } // namespace offstage

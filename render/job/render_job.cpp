@@ -1,9 +1,12 @@
 #include "render/job/render_job.h"
 
 #include "render/job/chunked_render.h"
+#include "render/job/console.h"
 #include "render/job/frame_maker.h"
 #include "render/job/interrupt.h"
 #include "render/output/atomic_file.h"
+#include "render/output/file_error.h"
+#include "render/output/frame_pattern.h"
 #include "render/output/output_kind.h"
 #include "render/output/sink.h"
 #include "src/sim/error.h"
@@ -12,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -54,6 +58,21 @@ RenderResult renderStream(Source& source, const RenderOptions& options) {
   return {schedule.frames(), schedule.seconds(), elapsed.count(), bytes()};
 }
 
+/// Two outputs in one place: the second would replace the first.
+void requireApart(std::string_view option, const std::filesystem::path& out, std::string_view otherOption,
+                  const std::filesystem::path& other) {
+  if (out.empty() || other.empty() || out == "-") return;
+  const std::filesystem::path place = std::filesystem::weakly_canonical(other);
+  bool same = std::filesystem::weakly_canonical(out) == place;
+  if (!same && option == "-o" && outputKind(out) == OutputKind::PngSequence) {
+    const FramePattern pattern(std::filesystem::weakly_canonical(out));
+    same = pattern.folder() == place.parent_path() && pattern.numberOf(place.filename().native()).has_value();
+  }
+  if (same)
+    throw Error(ExitCode::BadInput,
+                fmt::format("{} and {} cannot both be {}", option, otherOption, quoted(other)));
+}
+
 } // namespace
 
 RenderResult render(Source& source, const RenderOptions& options) {
@@ -64,6 +83,11 @@ RenderResult render(Source& source, const RenderOptions& options) {
 void requireOutput(const RenderOptions& options) {
   if (options.out.empty() && options.hashFile.empty() && options.poster.empty())
     throw Error(ExitCode::BadInput, "nothing to make: give -o OUT (or --hash FILE, or --poster FILE)");
+  if (options.hashFile == "-")
+    throw Error(ExitCode::BadInput, "--hash writes to a file, not to standard output");
+  requireApart("-o", options.out, "--hash", options.hashFile);
+  requireApart("-o", options.out, "--poster", options.poster);
+  requireApart("--hash", options.hashFile, "--poster", options.poster);
 }
 
 void printSummary(const RenderResult& result, const RenderOptions& options) {
@@ -71,10 +95,11 @@ void printSummary(const RenderResult& result, const RenderOptions& options) {
   std::string text = made.string();
   if (options.segment)
     text += fmt::format(", segment {} of {}", options.segment->number, options.segment->count);
-  text += fmt::format(": {} frames, {:.3f} s, in {:.2f} s ({:.1f}x real time)", result.frames, result.seconds,
-                      result.elapsed, result.elapsed > 0.0 ? result.seconds / result.elapsed : 0.0);
+  text += fmt::format(": {} frame{}, {:.3f} s, in {:.2f} s ({:.1f}x real time)", result.frames,
+                      result.frames == 1 ? "" : "s", result.seconds, result.elapsed,
+                      result.elapsed > 0.0 ? result.seconds / result.elapsed : 0.0);
   if (!options.out.empty()) text += fmt::format(", {} KiB", (result.bytes + 1023) / 1024);
-  fmt::print(options.out == "-" ? stderr : stdout, "{}\n", text);
+  say(options.out == "-" ? stderr : stdout, text + "\n");
 }
 
 } // namespace offstage

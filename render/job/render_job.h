@@ -26,7 +26,8 @@ struct RenderResult {
 /// prints may come twice. options.jobs = 0 forks none.
 RenderResult render(Source& source, const RenderOptions& options);
 
-/// Throws Error(BadInput) unless the options name something to make: an output or a hash file.
+/// Throws Error(BadInput) unless the options name something to make (an output, a hash file or a poster), and
+/// each in a place of its own.
 void requireOutput(const RenderOptions& options);
 
 /// Prints what a command ends with, "out.mp4: 1200 frames, 20.000 s, in 3.21 s (6.2x real time), 812 KiB", to

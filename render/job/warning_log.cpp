@@ -1,11 +1,11 @@
 #include "render/job/warning_log.h"
 
+#include "render/job/console.h"
 #include "src/scene/diagnostic.h"
 
 #include <cstdio>
 #include <new>
 #include <sys/mman.h>
-#include <unistd.h>
 #include <utility>
 
 #include <fmt/format.h>
@@ -34,8 +34,9 @@ void WarningLog::report(const Warning& warning, const WarningText& text) {
   if (mode_ == Mode::Strict) throw SceneError(file, what + " (--strict)");
   if (told_[warning.what.index()].exchange(true)) return;
   // Over the bar of a render, which is drawn anew below.
-  const char* clear = isatty(STDERR_FILENO) != 0 ? "\r\033[K" : "";
-  fmt::print(stderr, "{}{}: warning: {}\n", clear, file, what);
+  const int columns = terminalColumns(stderr);
+  const std::string clear = columns > 0 ? fmt::format("\r{:{}}\r", "", columns - 1) : "";
+  say(stderr, fmt::format("{}{}: warning: {}\n", clear, file, what));
 }
 
 WatchedRun::WatchedRun(const World& world, WarningText text, WarningLog& log)

@@ -130,6 +130,7 @@ std::int64_t ApngOutput::join(std::span<const std::filesystem::path> chunks, std
   std::uint32_t sequence = 0;
   AnimationReader reader(chunks);
   for (std::int64_t k = 0; reader.next(patch); ++k) {
+    tellJoined(patch.timing.index + 1);
     const std::int64_t ticks =
         byIndex_ ? 1 : millisecondOf(patch.timing.end) - millisecondOf(patch.timing.start);
     if (ticks * tick_ > kMostDelayTerm) {

@@ -39,6 +39,15 @@ fs::path followLinks(const fs::path& path) {
   throw fileError(ELOOP, path);
 }
 
+/// In a folder with the sticky bit, such as /tmp, a file that others may write to is still not theirs to
+/// replace (sticky(7) of Debian's manual: the owner of the file, of the folder, and root).
+bool mayReplace(const struct stat& file, const fs::path& folder) {
+  struct stat info {};
+  if (stat(folder.c_str(), &info) != 0 || (info.st_mode & S_ISVTX) == 0) return true;
+  const uid_t self = geteuid();
+  return self == 0 || self == file.st_uid || self == info.st_uid;
+}
+
 /// The permissions of the regular file at `target`, nothing when there is none. Throws when something else
 /// stands there, or when the file may not be written.
 std::optional<mode_t> permissionsOf(const fs::path& target, const fs::path& path) {
@@ -59,19 +68,21 @@ std::optional<mode_t> permissionsOf(const fs::path& target, const fs::path& path
     throw Error(ExitCode::BadInput,
                 fmt::format("cannot write {}: the file is write-protected", quoted(path)));
   }
+  if (!mayReplace(info, folderOf(target))) {
+    throw Error(ExitCode::BadInput,
+                fmt::format("cannot write {}: in the folder {} only its owner may replace a file",
+                            quoted(path), quoted(folderOf(target))));
+  }
   return info.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO);
 }
 
 constexpr std::string_view kTemporaryEnding = ".partial";
 
-/// `.NAME.PID.partial`; NAME is cut so that the whole is a legal name, and not within a UTF-8 character.
+/// `.NAME.PID.partial`; NAME is cut so that the whole is a legal name.
 std::string temporaryName(const std::string& name, pid_t pid, int attempt) {
   const std::string suffix = attempt == 0 ? fmt::format(".{}{}", pid, kTemporaryEnding)
                                           : fmt::format(".{}.{}{}", pid, attempt, kTemporaryEnding);
-  std::size_t length = std::min(name.size(), NAME_MAX - suffix.size() - 1);
-  while (length > 0 && length < name.size() && (static_cast<unsigned char>(name[length]) & 0xC0U) == 0x80U)
-    --length;
-  return fmt::format(".{}{}", std::string_view(name).substr(0, length), suffix);
+  return fmt::format(".{}{}", shortened(name, NAME_MAX - suffix.size() - 1), suffix);
 }
 
 /// Removes a dot and digits from the end; false when there are none.
@@ -103,7 +114,7 @@ AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)), owner_(getpid())
   if (permissions && fchmod(descriptor_, *permissions) != 0) {
     const int error = errno;
     discard();
-    throw fileError(error, path_);
+    throw fileError(error, target_);
   }
 }
 
@@ -121,7 +132,7 @@ void AtomicFile::openTemporary() {
       if (!error) record_ = registerTemporary(absolute.native());
       return;
     }
-    if (errno != EEXIST && errno != EINTR) throw fileError(errno, path_);
+    if (errno != EEXIST && errno != EINTR) throw fileError(errno, target_);
   }
   throw Error(ExitCode::BadInput,
               fmt::format("cannot write {}: the folder {} is full of unfinished files such as {}; "
@@ -149,7 +160,7 @@ void AtomicFile::write(const void* data, std::size_t size) {
     const ssize_t written = ::write(descriptor_, bytes, size);
     if (written < 0) {
       if (errno == EINTR) continue;
-      throw fileError(errno, path_);
+      throw fileError(errno, target_);
     }
     bytes += written;
     size -= static_cast<std::size_t>(written);
@@ -158,7 +169,7 @@ void AtomicFile::write(const void* data, std::size_t size) {
 
 std::int64_t AtomicFile::seek(std::int64_t offset, int whence) {
   const off_t position = lseek(descriptor_, offset, whence);
-  if (position < 0) throw fileError(errno, path_);
+  if (position < 0) throw fileError(errno, target_);
   return position;
 }
 
@@ -167,9 +178,9 @@ void AtomicFile::commit(SyncFolder sync) {
     throw std::logic_error("AtomicFile::commit: the file is not this process's, or was committed before");
   }
   while (fsync(descriptor_) != 0) {
-    if (errno != EINTR) throw fileError(errno, path_);
+    if (errno != EINTR) throw fileError(errno, target_);
   }
-  if (rename(temporary_.c_str(), target_.c_str()) != 0) throw fileError(errno, path_);
+  if (rename(temporary_.c_str(), target_.c_str()) != 0) throw fileError(errno, target_);
   unregisterTemporary(record_);
   record_ = nullptr;
   // The contents are on the disk already, so nothing is left that close could report.

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -53,14 +54,21 @@ public:
   /// again. `frames` is how many frames were handed in. Returns the output's bytes.
   virtual std::int64_t join(std::span<const std::filesystem::path> chunks, std::int64_t frames) = 0;
 
+  /// Called now and then by join(), with how many frames it has put into the output; what it throws ends
+  /// join().
+  void setJoinWatch(std::function<void(std::int64_t joined)> watch) { joinWatch_ = std::move(watch); }
   /// What join() puts beside the pictures, as far as the format can hold it.
   void setTracks(VideoTracks tracks) { tracks_ = std::move(tracks); }
 
 protected:
   [[nodiscard]] const VideoTracks& tracks() const { return tracks_; }
+  void tellJoined(std::int64_t frames) const {
+    if (joinWatch_) joinWatch_(frames);
+  }
 
 private:
   VideoTracks tracks_;
+  std::function<void(std::int64_t)> joinWatch_;
 };
 
 /// The output that `out`'s ending asks for (outputKind): H.264 in .mp4 .mkv .mov, VP9 in .webm, ProRes 4444

@@ -60,7 +60,7 @@ VideoEncoder::VideoEncoder(const EncoderSettings& settings) : traits_(traitsOf(s
   context.flags |= AV_CODEC_FLAG_GLOBAL_HEADER | AV_CODEC_FLAG_BITEXACT | AV_CODEC_FLAG_CLOSED_GOP;
 
   libav::Options options;
-  for (const auto& [key, value] : optionsOf(settings.codec, settings.quality, settings.alpha)) {
+  for (const auto& [key, value] : optionsOf(settings.codec, settings.quality)) {
     if (key == "global_quality") { // means nothing without its flag
       context.flags |= AV_CODEC_FLAG_QSCALE;
     }

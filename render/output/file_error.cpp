@@ -1,5 +1,6 @@
 #include "render/output/file_error.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 
@@ -52,11 +53,27 @@ Error fileError(int error, const std::filesystem::path& path) {
   return {reason.code, fmt::format("cannot write {}: {}", quoted(path), reason.text)};
 }
 
+Error standardOutputError(int error) {
+  if (error == EPIPE)
+    return {ExitCode::Transient, "the program that reads from standard output has closed the pipe"};
+  if (error == ENOSPC || error == EDQUOT)
+    return {ExitCode::Transient, "cannot write to standard output: no space left on its disk"};
+  return {error == EBADF ? ExitCode::BadInput : ExitCode::Transient,
+          fmt::format("cannot write to standard output: {}", std::generic_category().message(error))};
+}
+
 std::string quoted(const std::filesystem::path& path) {
   std::string text = "'";
   text += path.native();
   text += '\'';
   return text;
+}
+
+std::string_view shortened(std::string_view name, std::size_t most) {
+  std::size_t length = std::min(name.size(), most);
+  while (length > 0 && length < name.size() && (static_cast<unsigned char>(name[length]) & 0xC0U) == 0x80U)
+    --length;
+  return name.substr(0, length);
 }
 
 std::filesystem::path folderOf(const std::filesystem::path& path) {

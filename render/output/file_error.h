@@ -2,8 +2,10 @@
 
 #include "src/sim/error.h"
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace offstage {
 
@@ -12,8 +14,15 @@ namespace offstage {
 /// lack of descriptors or memory are Transient. The message is "cannot write 'PATH': REASON".
 Error fileError(int error, const std::filesystem::path& path);
 
+/// The same for standard output: Transient when its reader has gone away or its disk is full, BadInput when
+/// the caller has closed it (EBADF).
+Error standardOutputError(int error);
+
 /// 'PATH', as messages quote file names.
 std::string quoted(const std::filesystem::path& path);
+
+/// A file's name, cut to so many bytes at most, and not within a UTF-8 character.
+std::string_view shortened(std::string_view name, std::size_t most);
 
 /// The folder that `path` lies in; "." for a bare name.
 std::filesystem::path folderOf(const std::filesystem::path& path);

@@ -174,13 +174,16 @@ std::int64_t GifOutput::join(std::span<const std::filesystem::path> chunks, std:
       histogram.add(rows.subspan(row + 1, stride - 1));
     end = tickOf(frames, patch.timing.end);
     any = true;
+    tellJoined(0);
   }
   if (!any) throw Error(ExitCode::BadInput, fmt::format("no frames to write to {}", quoted(path_)));
 
   AtomicFile file(path_);
   IndexedClip clip(file, format_.width, format_.height, makePalette(histogram));
-  for (AnimationReader reader(chunks); reader.next(patch);)
+  for (AnimationReader reader(chunks); reader.next(patch);) {
     clip.apply(patch, inflater.rows(patch), tickOf(patch.timing.index, patch.timing.start));
+    tellJoined(patch.timing.index + 1);
+  }
   clip.finish(end);
   verifyAnimation(file.temporary(), {"gif", format_.width, format_.height, clip.frames()}, path_);
   file.commit();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <utility>
 
 #include <fmt/format.h>
@@ -42,6 +43,7 @@ std::string numbered(std::filesystem::path out) {
 
 OutputKind outputKind(const std::filesystem::path& out) {
   if (out == "-") return OutputKind::RawPipe;
+  if (!out.empty() && !out.has_filename()) throw fileError(EISDIR, out);
   const std::string ending = lowerCaseEnding(out);
   if (ending.empty()) {
     throw Error(ExitCode::BadInput,

@@ -125,6 +125,7 @@ std::int64_t PngSequenceOutput::join(std::span<const fs::path> chunks, std::int6
       bytes += done->bytes;
       ++frames_;
     }
+    tellJoined(frames_);
   }
   if (frames_ == 0 || frames_ != frames) {
     throw Error(

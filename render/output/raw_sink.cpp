@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <fcntl.h>
 #include <poll.h>
-#include <system_error>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -16,21 +15,10 @@ namespace offstage {
 
 namespace {
 
-[[noreturn]] void failPipe(int error) {
-  if (error == EPIPE) {
-    throw Error(ExitCode::Transient, "the program that reads from standard output has closed the pipe");
-  }
-  if (error == ENOSPC || error == EDQUOT) {
-    throw Error(ExitCode::Transient, "cannot write to standard output: no space left on its disk");
-  }
-  throw Error(error == EBADF ? ExitCode::BadInput : ExitCode::Transient,
-              fmt::format("cannot write to standard output: {}", std::generic_category().message(error)));
-}
-
 /// Waits until a descriptor that another program has made non-blocking takes bytes again.
 void waitUntilWritable(int descriptor) {
   pollfd entry{descriptor, POLLOUT, 0};
-  if (poll(&entry, 1, -1) < 0 && errno != EINTR) failPipe(errno);
+  if (poll(&entry, 1, -1) < 0 && errno != EINTR) throw standardOutputError(errno);
 }
 
 } // namespace
@@ -52,7 +40,9 @@ void RawFileSink::finish() {
 
 RawPipeSink::RawPipeSink(int descriptor, const SinkFormat& format)
     : descriptor_(descriptor), format_(format) {
-  if (fcntl(descriptor, F_GETFD) < 0) failPipe(errno);
+  const int mode = fcntl(descriptor, F_GETFL);
+  if (mode < 0) throw standardOutputError(errno);
+  if ((mode & O_ACCMODE) == O_RDONLY) throw standardOutputError(EBADF);
   if (isatty(descriptor) != 0) {
     throw Error(ExitCode::BadInput,
                 "standard output is a terminal; pipe the raw frames into a program, or name a file");
@@ -67,7 +57,7 @@ void RawPipeSink::write(const Frame& frame, const FrameTiming& /*timing*/) {
     const ssize_t written = ::write(descriptor_, bytes, size);
     if (written < 0) {
       if (errno == EINTR) continue;
-      if (errno != EAGAIN && errno != EWOULDBLOCK) failPipe(errno);
+      if (errno != EAGAIN && errno != EWOULDBLOCK) throw standardOutputError(errno);
       waitUntilWritable(descriptor_);
       continue;
     }

@@ -1,22 +1,11 @@
 #include "render/output/text_output.h"
 
-#include "src/sim/error.h"
+#include "render/output/file_error.h"
 
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
-
-#include <fmt/format.h>
 
 namespace offstage {
-namespace {
-
-[[noreturn]] void throwPipeError() {
-  throw Error(ExitCode::Transient, fmt::format("standard output: {}", std::strerror(errno)));
-}
-
-} // namespace
-
 TextOutput::TextOutput(const std::filesystem::path& path) : buffer_(nullptr), stream_(nullptr) {
   if (path != "-") {
     file_.emplace(path);
@@ -31,7 +20,7 @@ void TextOutput::commit() {
   if (file_)
     file_->commit();
   else if (std::fflush(stdout) != 0)
-    throwPipeError();
+    throw standardOutputError(errno);
 }
 
 std::streamsize TextOutput::Buffer::xsputn(const char* text, std::streamsize size) {
@@ -39,7 +28,7 @@ std::streamsize TextOutput::Buffer::xsputn(const char* text, std::streamsize siz
   if (file_ != nullptr)
     file_->write(text, bytes);
   else if (std::fwrite(text, 1, bytes, stdout) != bytes)
-    throwPipeError();
+    throw standardOutputError(errno);
   return size;
 }
 

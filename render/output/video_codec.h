@@ -47,6 +47,6 @@ const std::vector<CodecTraits>& allCodecs();
 VideoCodec chooseCodec(const std::filesystem::path& out, Container container, bool alpha, Quality quality);
 
 /// The encoder's options, as FFmpeg names them.
-std::vector<std::pair<std::string, std::string>> optionsOf(VideoCodec codec, Quality quality, bool alpha);
+std::vector<std::pair<std::string, std::string>> optionsOf(VideoCodec codec, Quality quality);
 
 } // namespace offstage

@@ -188,7 +188,7 @@ std::int64_t VideoOutput::join(std::span<const std::filesystem::path> chunks, st
       expected.lastStart = std::max(expected.lastStart, packet->pts);
       expected.end = std::max(expected.end, packet->pts + packet->duration);
       muxer.write(*packet);
-      ++packets;
+      tellJoined(++packets);
     }
   }
   if (packets == 0) throw Error(ExitCode::BadInput, fmt::format("no frames to write to {}", quoted(path_)));

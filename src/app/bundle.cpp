@@ -1,9 +1,11 @@
 #include "render/job/bundle.h"
 
 #include "render/job/command_line.h"
+#include "render/job/console.h"
 #include "src/app/commands.h"
 #include "src/scene/scene.h"
 
+#include <cstdio>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -32,7 +34,7 @@ void addBundle(CLI::App& app, Action& action) {
       const RenderOptions& options = arguments->options;
       const Scene scene = loadScene(arguments->scene, options.sceneOverrides());
       for (const std::string& name : makeBundle(scene, options))
-        fmt::print("{}\n", (options.out / name).string());
+        say(stdout, (options.out / name).string() + "\n");
       return static_cast<int>(ExitCode::Done);
     };
   });

@@ -1,5 +1,6 @@
 #include "render/job/chunked_render.h"
 #include "render/job/command_line.h"
+#include "render/job/render_job.h"
 #include "render/job/scene_source.h"
 #include "src/app/commands.h"
 #include "src/scene/scene.h"
@@ -25,6 +26,7 @@ void addJoin(CLI::App& app, Action& action) {
     action = [arguments] {
       if (arguments->options.out.empty()) throw Error(ExitCode::BadInput, "give -o OUT, as to the segments");
       const RenderOptions options = optionsOfSegments(arguments->options);
+      requireOutput(options);
       const Scene scene = loadScene(arguments->scene, options.sceneOverrides());
       SceneSource source(scene, options.viewport(scene.size[0], scene.size[1], scene.scale));
       printSummary(joinSegments(source, options), options);

@@ -1,6 +1,7 @@
 #include "render/job/still.h"
 
 #include "render/job/command_line.h"
+#include "render/job/console.h"
 #include "render/job/poster.h"
 #include "render/output/atomic_file.h"
 #include "render/output/png.h"
@@ -56,8 +57,8 @@ void addStill(CLI::App& app, Action& action) {
           encodePng(still.frame, still.alpha, printResolution(viewport.scale));
       file.write(png.data(), png.size());
       file.commit();
-      fmt::print("{}: {}x{}, frame {} at {} s\n", arguments->out.string(), still.frame.width,
-                 still.frame.height, source.frame(), source.time());
+      say(stdout, fmt::format("{}: {}x{}, frame {} at {} s\n", arguments->out.string(), still.frame.width,
+                              still.frame.height, source.frame(), source.time()));
       return static_cast<int>(ExitCode::Done);
     };
   });

@@ -28,7 +28,8 @@ std::vector<FrameTiming> fixedTimings(int count, double fps) {
 }
 
 Written writeOutput(const std::filesystem::path& out, const SinkFormat& format,
-                    const std::vector<FrameTiming>& timings, const std::function<Frame(int)>& frameOf) {
+                    const std::vector<FrameTiming>& timings, const std::function<Frame(int)>& frameOf,
+                    const std::function<void(std::int64_t joined)>& joinWatch) {
   const std::unique_ptr<ChunkedOutput> output = makeChunkedOutput(out, format);
   const TempDir folder;
   const ChunkPlan plan(static_cast<std::int64_t>(timings.size()));
@@ -43,6 +44,7 @@ Written writeOutput(const std::filesystem::path& out, const SinkFormat& format,
     }
     writer->finish();
   }
+  output->setJoinWatch(joinWatch);
   Written written;
   written.bytes = output->join(chunks, plan.frames());
   written.notice = output->notice();

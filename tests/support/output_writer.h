@@ -23,8 +23,9 @@ struct Written {
 };
 
 /// Makes an output of frames as a render does: chunk by chunk by the plan, then joined. Without `frameOf`,
-/// frame k is lectureFrame(width, height, k).
+/// frame k is lectureFrame(width, height, k). `joinWatch` is the output's.
 Written writeOutput(const std::filesystem::path& out, const SinkFormat& format,
-                    const std::vector<FrameTiming>& timings, const std::function<Frame(int)>& frameOf = {});
+                    const std::vector<FrameTiming>& timings, const std::function<Frame(int)>& frameOf = {},
+                    const std::function<void(std::int64_t joined)>& joinWatch = {});
 
 } // namespace offstage::test

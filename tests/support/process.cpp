@@ -68,6 +68,7 @@ ProcessResult runProcess(const std::vector<std::string>& arguments, const Proces
   out.closeEnd(1);
   err.closeEnd(1);
   if (options.closedOutput) out.closeEnd(0);
+  if (options.closedErrors) err.closeEnd(0);
 
   ProcessResult result;
   const double start = now();

@@ -22,6 +22,7 @@ struct ProcessOptions {
   std::filesystem::path directory; ///< working directory; empty: the test's
   int interruptAfterMs = 0;        ///< > 0: send SIGINT after this time
   bool closedOutput = false;       ///< standard output is a pipe that nobody reads
+  bool closedErrors = false;       ///< and so is standard error
 };
 
 /// Runs a program to its end and collects what it prints. `arguments` starts with the program's path.
