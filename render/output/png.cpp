@@ -2,6 +2,7 @@
 
 #include "render/output/byte_order.h"
 #include "render/output/frame_check.h"
+#include "render/output/rgb_pack.h"
 #include "src/sim/error.h"
 
 #include <algorithm>
@@ -79,19 +80,6 @@ private:
 /// Bytes for the compressed rows of a flat picture. What needs more is not flat.
 constexpr std::size_t roomForFlat(std::size_t rowBytes) {
   return rowBytes / 2;
-}
-
-/// Drops every fourth byte. Two pixels at a time in one word, because compilers do not vectorise a stride of
-/// three well; a store reaches two bytes beyond its pixels, which the next one writes over.
-void packRgb(const std::uint8_t* rgba, std::uint8_t* rgb, std::size_t pixels) {
-  std::size_t x = 0;
-  for (; x + 3 <= pixels; x += 2) {
-    std::uint64_t two = 0;
-    std::memcpy(&two, rgba + 4 * x, sizeof two);
-    two = (two & 0xFFFFFFU) | (two >> 8U & 0xFFFFFF000000U);
-    std::memcpy(rgb + 3 * x, &two, sizeof two);
-  }
-  for (; x < pixels; ++x) std::memcpy(rgb + 3 * x, rgba + 4 * x, 3);
 }
 
 } // namespace

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "render/output/wide.h"
+
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +13,8 @@ namespace offstage {
 class RepeatMask {
 public:
   /// For rows of `bytes` bytes.
-  explicit RepeatMask(std::size_t bytes) : bytes_(bytes), words_(bytes / kBits + 2) {}
+  explicit RepeatMask(std::size_t bytes, bool wide = processorIsWide())
+      : bytes_(bytes), wide_(wide), words_(bytes / kBits + 2) {}
 
   /// Compares the row at `row`; `distance` bytes before it can be read too.
   void compare(const std::uint8_t* row, std::size_t distance);
@@ -33,6 +36,7 @@ public:
 private:
   static constexpr std::size_t kBits = 64;
   std::size_t bytes_;
+  bool wide_;
   std::vector<std::uint64_t> words_;
 };
 
