@@ -43,6 +43,17 @@ paired() {
     "$(printf '%s\n' "${ratios[@]}" | median)" "$limit"
 }
 
+# Where two processors share a core, no program halves its time with two workers.
+at_once() {
+  local ratios=() one both
+  for ((i = 0; i < runs; ++i)); do
+    one=$(wall "$offstage" render scene.toml --jobs 1 -o ours.mp4)
+    both=$(wall bash -c '"$0" render scene.toml --jobs 1 -o ours.mp4 & "$0" render scene.toml --jobs 1 -o also.mp4; wait' "$offstage")
+    ratios+=("$(awk -v a="$both" -v b="$one" 'BEGIN { printf "%.3f", a / (2 * b) }')")
+  done
+  printf '%s\n' "${ratios[@]}" | median
+}
+
 # Frame by frame, whatever the containers make of the times.
 ssim() { ffmpeg -i "$1" -i frames.y4m -lavfi '[0]settb=1/60,setpts=N[a];[1]settb=1/60,setpts=N[b];[a][b]ssim' -f null - 2>&1 | sed -n 's/.*All:\([0-9.]*\).*/\1/p'; }
 size() { du -bc "$@" | awk 'END { print $1 }'; }
@@ -67,6 +78,7 @@ for case in '10 300 0.85 0.4 0.3' '1000 300 0.85 0.7 0.3' '10000 60 1.05 0.5 0.3
     bash -c "./cairo raw $n $frames | ffmpeg -v error ${raw[*]} -pix_fmt bgr0 -i - -pix_fmt yuv420p ${x264[*]} theirs.mp4"
   paired wall 0.55 'wall clock, 2 workers by 1' "$offstage" render scene.toml --jobs 2 -o ours.mp4 -- \
     "$offstage" render scene.toml --jobs 1 -o ours.mp4
+  echo "    what this machine's processors give: two such runs at once by both in turn $(at_once)"
 
   mkdir -p ours theirs
   seconds=$((frames / 60)) && [ "$seconds" -le 2 ] || seconds=2
