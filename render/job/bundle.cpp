@@ -24,8 +24,6 @@
 namespace offstage {
 namespace {
 
-namespace fs = std::filesystem;
-
 class BundleMaker {
 public:
   BundleMaker(const Scene& scene, const RenderOptions& options)
