@@ -10,7 +10,7 @@ namespace offstage {
 inline constexpr const char* kOsMesaLibrary = "libOSMesa.so.8";
 
 /// An OSMesa context (libOSMesa.so.8: Debian's libosmesa6; gone from Mesa since 25.1). Null when the library
-/// is missing or gives no GL 3.3 core; `reason` then says why.
+/// is missing or gives no such context; `reason` then says why.
 std::unique_ptr<GlContext> makeOsMesaContext(std::string& reason);
 
 /// An EGL context on Mesa's surfaceless platform (EGL_MESA_platform_surfaceless), which draws with llvmpipe.

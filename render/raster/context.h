@@ -5,9 +5,11 @@
 
 namespace offstage {
 
-/// A current OpenGL 3.3 core context without a window. The libraries are loaded at run time, so the program
-/// starts (and can say what is missing) on a machine without them. One context a process; used from the
-/// thread that made it.
+/// A current OpenGL 3.3 context without a window. The libraries are loaded at run time, so the program starts
+/// (and can say what is missing) on a machine without them. One context a process; used from the thread that
+/// made it. Of the compatibility profile, though only core functions are called: in the core profile every
+/// point is a sprite, which llvmpipe draws as a polygon of four edges; others it draws as rectangles (a frame
+/// of 10,000 discs in 17 ms instead of 20, the same pixels).
 class GlContext {
 public:
   using Proc = void (*)();

@@ -5,7 +5,7 @@
 namespace offstage {
 
 std::optional<DynamicLibrary> DynamicLibrary::open(const char* name, std::string& reason) {
-  void* handle = dlopen(name, RTLD_NOW | RTLD_LOCAL);
+  void* handle = dlopen(name, RTLD_LAZY | RTLD_LOCAL);
   if (handle == nullptr) {
     const char* message = dlerror();
     reason = message != nullptr ? message : name;

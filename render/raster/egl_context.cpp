@@ -84,10 +84,10 @@ public:
                                         EGL_CONTEXT_MINOR_VERSION,
                                         3,
                                         EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                        EGL_CONTEXT_OPENGL_COMPATIBILITY_PROFILE_BIT,
                                         EGL_NONE};
     context_ = egl_.createContext(display, config, EGL_NO_CONTEXT, version.data());
-    if (context_ == EGL_NO_CONTEXT) return failed("eglCreateContext (OpenGL 3.3 core)");
+    if (context_ == EGL_NO_CONTEXT) return failed("eglCreateContext (OpenGL 3.3, compatibility profile)");
     if (egl_.makeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE) {
       return failed("eglMakeCurrent (without a surface)");
     }

@@ -76,7 +76,7 @@ std::unique_ptr<GlContext> makeOsMesaContext(std::string& reason) {
                                        OSMESA_ACCUM_BITS,
                                        0,
                                        OSMESA_PROFILE,
-                                       OSMESA_CORE_PROFILE,
+                                       OSMESA_COMPAT_PROFILE,
                                        OSMESA_CONTEXT_MAJOR_VERSION,
                                        3,
                                        OSMESA_CONTEXT_MINOR_VERSION,
@@ -84,7 +84,7 @@ std::unique_ptr<GlContext> makeOsMesaContext(std::string& reason) {
                                        0};
   const OSMesaContext handle = create(attributes.data(), nullptr);
   if (handle == nullptr) {
-    reason = "OSMesa gives no OpenGL 3.3 core context";
+    reason = "OSMesa gives no OpenGL 3.3 context of the compatibility profile";
     return nullptr;
   }
   auto context = std::make_unique<OsMesaContext>(*library, handle);
