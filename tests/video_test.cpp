@@ -2,6 +2,7 @@
 #include "render/output/chunked_output.h"
 #include "render/output/input_file.h"
 #include "render/output/libav.h"
+#include "render/output/packet_hash.h"
 #include "render/output/verify.h"
 #include "tests/support/child.h"
 #include "tests/support/output_writer.h"
@@ -366,8 +367,20 @@ TEST(Video, FullDiskIsTransientAndLeavesNothing) {
   }
 }
 
-ExpectedVideo expectedOf(int width, int height, int frames, double fps) {
+/// The hash of what a file holds, as it is.
+std::uint64_t packetHashOf(const fs::path& file) {
+  libav::InputContext format;
+  if (libav::openInput(file, format) < 0) throw std::runtime_error("the video does not open");
+  const libav::Packet packet = libav::makePacket();
+  PacketHash hash;
+  for (; av_read_frame(format.get(), packet.get()) >= 0; av_packet_unref(packet.get()))
+    hash.addStored(*packet);
+  return hash.value();
+}
+
+ExpectedVideo expectedOf(const fs::path& whole, int width, int height, int frames, double fps) {
   ExpectedVideo expected;
+  expected.packets = packetHashOf(whole);
   expected.width = width;
   expected.height = height;
   expected.frames = frames;
@@ -385,18 +398,21 @@ TEST(VerifyVideo, NamesEachDifference) {
     return errorOf([&] { verifyVideo(file, expected, "out.mp4"); });
   };
   const std::string failed = "75: the check of the finished 'out.mp4' failed: ";
-  ExpectedVideo expected = expectedOf(64, 48, 20, 30);
+  ExpectedVideo expected = expectedOf(file, 64, 48, 20, 30);
   EXPECT_EQ(verify(expected), "no error");
   expected.frames = 21;
   EXPECT_EQ(verify(expected), failed + "number of frames 20 instead of 21");
-  expected = expectedOf(66, 46, 20, 30);
+  expected = expectedOf(file, 66, 46, 20, 30);
   EXPECT_EQ(verify(expected),
             failed + "width 64 instead of 66; height 48 instead of 46; decoded width 64 instead of 66; "
                      "decoded height 48 instead of 46");
-  expected = expectedOf(64, 48, 20, 30);
+  expected = expectedOf(file, 64, 48, 20, 30);
   expected.end = 21;
   EXPECT_EQ(verify(expected), failed + "duration 0.666667 s instead of 0.700000 s");
   expected.end = 20;
+  expected.packets ^= 1U;
+  EXPECT_THAT(verify(expected), StartsWith(failed + "hash of the packets "));
+  expected.packets ^= 1U;
   expected.lastStart = 18;
   EXPECT_EQ(verify(expected), failed + "start of the last frame 0.633333 s instead of 0.600000 s");
 }
@@ -410,7 +426,7 @@ TEST(VerifyVideo, FindsTruncatedDamagedAndForeignFiles) {
     const std::string whole = test::readFile(dir / name);
     const auto verify = [&](const std::string& bytes) {
       test::writeFile(dir / "damaged", bytes);
-      return errorOf([&] { verifyVideo(dir / "damaged", expectedOf(64, 48, 20, 30), name); });
+      return errorOf([&] { verifyVideo(dir / "damaged", expectedOf(dir / name, 64, 48, 20, 30), name); });
     };
     EXPECT_EQ(verify(whole), "no error") << name;
     for (std::size_t size = 0; size < whole.size(); size += whole.size() / 7) {
@@ -422,52 +438,51 @@ TEST(VerifyVideo, FindsTruncatedDamagedAndForeignFiles) {
     EXPECT_THAT(verify(damaged), StartsWith("75: ")) << name << ": bytes before the end overwritten";
     EXPECT_THAT(verify("not a video at all"), StartsWith("75: ")) << name;
   }
-  EXPECT_THAT(errorOf([&] { verifyVideo(dir / "none", expectedOf(64, 48, 20, 30), "x"); }),
+  EXPECT_THAT(errorOf([&] { verifyVideo(dir / "none", expectedOf(dir / "a.mp4", 64, 48, 20, 30), "x"); }),
               HasSubstr("cannot be opened"));
   av_log_set_level(logLevel);
 }
 
-/// A packet of a video file.
-struct PacketPlace {
-  std::size_t begin = 0, size = 0; ///< bytes
-  bool referredTo = false;         ///< H.264's nal_ref_idc (ITU-T H.264, 7.4.1)
-};
-std::vector<PacketPlace> packetsOf(const fs::path& file) {
-  libav::InputContext format;
-  if (libav::openInput(file, format) < 0) throw std::runtime_error("the video does not open");
-  const libav::Packet packet = libav::makePacket();
-  std::vector<PacketPlace> places;
-  for (; av_read_frame(format.get(), packet.get()) >= 0; av_packet_unref(packet.get())) {
-    PacketPlace place{static_cast<std::size_t>(packet->pos), static_cast<std::size_t>(packet->size)};
-    for (int at = 0; at + 4 < packet->size;) { // units with their lengths before them
-      const std::uint8_t* unit = packet->data + at;
-      place.referredTo = place.referredTo || ((unit[4] & 0x1F) <= 5 && (unit[4] & 0x60) != 0);
-      at += 4 + ((unit[0] << 24) | (unit[1] << 16) | (unit[2] << 8) | unit[3]);
-    }
-    places.push_back(place);
-  }
-  return places;
-}
-
-TEST(VerifyVideo, FindsDamageInEveryFrameThatTheLastOneRestsOn) {
+TEST(VerifyVideo, FindsDamageInEveryFrame) {
   const int logLevel = av_log_get_level();
   av_log_set_level(AV_LOG_QUIET);
   const TempDir dir;
-  writeFixed(dir / "a.mp4", formatOf(160, 120, 30.0), 20);
-  const std::string whole = test::readFile(dir / "a.mp4");
-  int frames = 0;
-  for (const PacketPlace& place : packetsOf(dir / "a.mp4")) {
-    if (!place.referredTo) continue;
-    ++frames;
-    std::string damaged = whole;
-    std::fill_n(damaged.begin() + static_cast<std::ptrdiff_t>(place.begin + 8), place.size - 8, '\x55');
-    test::writeFile(dir / "damaged", damaged);
-    EXPECT_THAT(errorOf([&] { verifyVideo(dir / "damaged", expectedOf(160, 120, 20, 30), "a.mp4"); }),
-                StartsWith("75: "))
-        << "frame in bytes " << place.begin << " to " << place.begin + place.size;
+  for (const char* name : {"a.mp4", "a.mkv"}) {
+    writeFixed(dir / name, formatOf(160, 120, 30.0), 20);
+    const std::string whole = test::readFile(dir / name);
+    libav::InputContext format;
+    ASSERT_GE(libav::openInput(dir / name, format), 0);
+    const libav::Packet packet = libav::makePacket();
+    int frames = 0;
+    for (; av_read_frame(format.get(), packet.get()) >= 0; av_packet_unref(packet.get())) {
+      ++frames;
+      const std::string data(packet->data, packet->data + packet->size);
+      std::string damaged = whole;
+      const std::size_t begin = whole.find(data);
+      ASSERT_NE(begin, std::string::npos);
+      damaged[begin + data.size() - 1] ^= '\x10';
+      test::writeFile(dir / "damaged", damaged);
+      EXPECT_THAT(
+          errorOf([&] { verifyVideo(dir / "damaged", expectedOf(dir / name, 160, 120, 20, 30), name); }),
+          StartsWith("75: "))
+          << name << ": the last byte of frame " << frames;
+    }
+    EXPECT_EQ(frames, 20) << name;
   }
-  EXPECT_GT(frames, 5) << "of 20 that others refer to";
   av_log_set_level(logLevel);
+}
+
+TEST(VerifyVideo, DecodesTheLastFrameOfEveryQuality) {
+  const TempDir dir;
+  for (const Quality quality : {Quality::Draft, Quality::Good, Quality::High, Quality::Lossless}) {
+    for (const int frames : {1, 2, 3, 4, 20}) {
+      SinkFormat format = formatOf(160, 120, 30.0);
+      format.quality = quality;
+      const fs::path file = dir / (quality == Quality::Lossless ? "a.mkv" : "a.mp4");
+      EXPECT_EQ(errorOf([&] { writeFixed(file, format, frames); }), "no error")
+          << frames << " frames of quality " << static_cast<int>(quality);
+    }
+  }
 }
 
 } // namespace

@@ -9,7 +9,6 @@
 #include "render/job/sidecar.h"
 #include "render/job/workers.h"
 #include "render/output/atomic_file.h"
-#include "render/output/codecs.h"
 #include "render/output/file_error.h"
 #include "render/output/frame_pattern.h"
 #include "render/output/output_kind.h"
@@ -145,7 +144,6 @@ private:
   [[nodiscard]] Manifest manifest(bool hashes) const {
     Manifest manifest;
     manifest.add("program", programVersion());
-    manifest.add("libraries", libavVersions());
     manifest.add("scene", fmt::format("{:016x}", source_.fingerprint()));
     for (const std::string& argument : options_.drawingArguments()) manifest.add(kOptions, argument);
     manifest.add("title", source_.title());

@@ -50,11 +50,14 @@ namespace {
 // B-frames is exact; weights, which help with fades, cost time. x264 drops blocks that have few small
 // coefficients (decimation); in flat graphics those are the edges. A low qcomp spends less where much moves.
 // Every frame of lookahead takes 6 MB at this size and the pyramid 30 MB, so B takes 330 MB a worker and this
-// one 200. Psychovisual optimisation does nothing below subme 6. cpu-independent: else x264 chooses some
-// algorithms by the processor, and the bytes with them.
+// one 200. To look for scene cuts takes 6 % of the time at N = 1000, and a chunk begins with a key frame
+// anyway; a macroblock that nothing predicts is coded for itself all the same. Psychovisual optimisation does
+// nothing below subme 6. cpu-independent: else x264 chooses some algorithms by the processor, and the bytes
+// with them.
 constexpr const char* kX264Fast =
     "subme=1:b-adapt=0:bframes=2:b-pyramid=none:weightp=0:direct=temporal:"
-    "dct-decimate=0:rc-lookahead=5:qcomp=0.25:me=dia:merange=8:partitions=b8x8,i4x4:cpu-independent=1";
+    "dct-decimate=0:rc-lookahead=5:scenecut=0:qcomp=0.25:me=dia:merange=8:partitions=b8x8,i4x4:"
+    "cpu-independent=1";
 
 // The other qualities, on the first 2 s of scenes at twice their size (one worker, CPU seconds of the whole
 // render, the lesser of two runs; KiB; SSIM). draft and high as they were had the settings of good without

@@ -1,8 +1,10 @@
 #include "render/output/video_output.h"
 
 #include "render/output/chunk_file.h"
+#include "render/output/codecs.h"
 #include "render/output/file_error.h"
 #include "render/output/frame_check.h"
+#include "render/output/packet_hash.h"
 #include "render/output/packet_record.h"
 #include "render/output/verify.h"
 #include "render/output/verify_tracks.h"
@@ -134,9 +136,10 @@ VideoOutput::VideoOutput(const std::filesystem::path& path, Container container,
 }
 
 std::string VideoOutput::description() const {
-  return fmt::format("{} {}x{} px, time base {}/{}, quality {}{}", traitsOf(settings_.codec).encoder,
+  // Chunks by different versions of an encoder must not be joined.
+  return fmt::format("{} {}x{} px, time base {}/{}, quality {}{}, {}", traitsOf(settings_.codec).encoder,
                      settings_.width, settings_.height, settings_.timeBase.num, settings_.timeBase.den,
-                     qualityName(settings_.quality), settings_.alpha ? ", transparent" : "");
+                     qualityName(settings_.quality), settings_.alpha ? ", transparent" : "", libavVersions());
 }
 
 std::string VideoOutput::notice() const {
@@ -179,12 +182,14 @@ std::int64_t VideoOutput::join(std::span<const std::filesystem::path> chunks, st
   expected.height = padded ? evenSize(format_.height) : format_.height;
   expected.timeBase = settings_.timeBase;
   std::int64_t packets = 0;
+  PacketHash hash;
   const libav::Packet packet = libav::makePacket();
   std::vector<std::uint8_t> record;
   for (const std::filesystem::path& chunk : chunks) {
     ChunkFileReader reader(chunk);
     while (reader.next(record)) {
       unpackPacket(record, *packet);
+      hash.addEncoded(*packet, settings_.codec);
       expected.lastStart = std::max(expected.lastStart, packet->pts);
       expected.end = std::max(expected.end, packet->pts + packet->duration);
       muxer.write(*packet);
@@ -195,6 +200,7 @@ std::int64_t VideoOutput::join(std::span<const std::filesystem::path> chunks, st
   muxer.finish();
   // Of a variable rate, frames that are never seen have no packet.
   expected.frames = format_.fps > 0.0 ? frames : packets;
+  expected.packets = hash.value();
   expected.hasSound = tracks().sound != nullptr;
   verifyVideo(file.temporary(), expected, path_);
   verifyTracks(file.temporary(), container_, tracks(), path_);
