@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <random>
+#include <span>
 #include <vector>
 #include <zlib.h>
 
@@ -16,12 +17,44 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// What a deflater makes of rows, in a buffer that is certainly large enough.
-Bytes compressed(PixelDeflater& deflater, const Bytes& rows) {
-  Bytes stream(2 * rows.size() + 2000);
-  stream.resize(deflater.compress(rows, stream));
-  return stream;
+/// The pixels of rows, each of one byte and `width` pixels, with any fourth byte where there are three
+/// channels.
+Bytes rgbaOf(const Bytes& rows, std::size_t width, std::size_t channels) {
+  Bytes rgba;
+  std::uint8_t fourth = 0;
+  for (std::size_t row = 0; row < rows.size(); row += 1 + width * channels) {
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::uint8_t* const pixel = &rows[row + 1 + x * channels];
+      rgba.insert(rgba.end(), pixel, pixel + channels);
+      if (channels == 3) rgba.push_back(fourth++);
+    }
+  }
+  return rgba;
 }
+
+/// A deflater for pictures of one width, and what it makes of them in a buffer that is certainly large
+/// enough.
+class TestDeflater {
+public:
+  TestDeflater(std::size_t width, std::size_t channels)
+      : width_(width), channels_(channels), deflater_(width, channels) {}
+
+  std::size_t compress(const Bytes& rows, std::span<std::uint8_t> to) {
+    const Bytes rgba = rgbaOf(rows, width_, channels_);
+    return deflater_.compress(rows, rgba.data(), to);
+  }
+
+  Bytes compressed(const Bytes& rows) {
+    Bytes stream(2 * rows.size() + 2000);
+    stream.resize(compress(rows, stream));
+    return stream;
+  }
+
+private:
+  std::size_t width_;
+  std::size_t channels_;
+  PixelDeflater deflater_;
+};
 
 /// zlib is the judge: it checks the codes' completeness and the checksum.
 void expectInflatesTo(const Bytes& rows, const Bytes& stream) {
@@ -65,8 +98,8 @@ TEST(PixelDeflate, FlatPicturesOfManySizesInflateToThemselves) {
     const std::size_t width = 1 + random() % (round % 4 == 0 ? 700 : 60);
     const std::size_t height = 1 + random() % 60;
     const Bytes rows = flatRows(random, width, height, channels);
-    PixelDeflater deflater(width, channels);
-    const Bytes stream = compressed(deflater, rows);
+    TestDeflater deflater(width, channels);
+    const Bytes stream = deflater.compressed(rows);
     if (stream.empty()) continue; // by chance not flat
     expectInflatesTo(rows, stream);
   }
@@ -76,8 +109,8 @@ TEST(PixelDeflate, RowsLongerThanTheWindowAreRunsOnly) {
   std::mt19937 random(2);
   for (const std::size_t width : {10922U, 10923U, 16000U}) { // 1 + 3·10922 = 32767 bytes reach just so far
     const Bytes rows = flatRows(random, width, 9, 3);
-    PixelDeflater deflater(width, 3);
-    const Bytes stream = compressed(deflater, rows);
+    TestDeflater deflater(width, 3);
+    const Bytes stream = deflater.compressed(rows);
     ASSERT_FALSE(stream.empty());
     expectInflatesTo(rows, stream);
   }
@@ -86,8 +119,8 @@ TEST(PixelDeflate, RowsLongerThanTheWindowAreRunsOnly) {
 TEST(PixelDeflate, PicturesOfSeveralBlocksInflateToThemselves) {
   std::mt19937 random(3);
   const Bytes rows = flatRows(random, 1600, 1200, 3); // some 190,000 matches, and a block holds 65,536
-  PixelDeflater deflater(1600, 3);
-  const Bytes stream = compressed(deflater, rows);
+  TestDeflater deflater(1600, 3);
+  const Bytes stream = deflater.compressed(rows);
   ASSERT_FALSE(stream.empty());
   expectInflatesTo(rows, stream);
 }
@@ -95,8 +128,8 @@ TEST(PixelDeflate, PicturesOfSeveralBlocksInflateToThemselves) {
 TEST(PixelDeflate, OneColourTakesNearlyNothing) {
   for (const std::size_t channels : {3U, 4U}) {
     const Bytes rows((1 + 1920 * channels) * 1080, 0);
-    PixelDeflater deflater(1920, channels);
-    const Bytes stream = compressed(deflater, rows);
+    TestDeflater deflater(1920, channels);
+    const Bytes stream = deflater.compressed(rows);
     expectInflatesTo(rows, stream);
     EXPECT_LT(stream.size(), 12000U);
   }
@@ -110,18 +143,18 @@ TEST(PixelDeflate, PicturesThatAreNotFlatAreLeftToOthers) {
     rows.insert(rows.end(), noise.rgba.begin() + static_cast<std::ptrdiff_t>(y * 800),
                 noise.rgba.begin() + static_cast<std::ptrdiff_t>((y + 1) * 800));
   }
-  PixelDeflater deflater(200, 4);
-  EXPECT_EQ(compressed(deflater, rows).size(), 0U);
+  TestDeflater deflater(200, 4);
+  EXPECT_EQ(deflater.compressed(rows).size(), 0U);
   // … and nothing of them is left for the next picture.
   const Bytes flat(rows.size(), 0);
-  expectInflatesTo(flat, compressed(deflater, flat));
+  expectInflatesTo(flat, deflater.compressed(flat));
 }
 
 TEST(PixelDeflate, ABufferThatIsTooSmallIsNotOverrun) {
   std::mt19937 random(4);
   const Bytes rows = flatRows(random, 300, 200, 3);
-  PixelDeflater deflater(300, 3);
-  const Bytes whole = compressed(deflater, rows);
+  TestDeflater deflater(300, 3);
+  const Bytes whole = deflater.compressed(rows);
   ASSERT_FALSE(whole.empty());
   constexpr std::uint8_t kGuard = 0xA5;
   for (std::size_t size = 0; size < whole.size() + 1000; size += 97) {
@@ -144,8 +177,8 @@ TEST(PixelDeflate, CirclesTakeNoMoreThanASearchOfTheWholeWindow) {
     if (i % (1280 * 4) == 0) rows.push_back(0);
     rows.insert(rows.end(), &frame.rgba[i], &frame.rgba[i] + 3);
   }
-  PixelDeflater deflater(1280, 3);
-  const Bytes stream = compressed(deflater, rows);
+  TestDeflater deflater(1280, 3);
+  const Bytes stream = deflater.compressed(rows);
   expectInflatesTo(rows, stream);
   libdeflate_compressor* other = libdeflate_alloc_compressor(2);
   Bytes reference(libdeflate_zlib_compress_bound(other, rows.size()));

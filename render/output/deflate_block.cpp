@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <span>
 
 namespace offstage {
@@ -92,19 +93,22 @@ DeflateBlock::DeflateBlock(std::size_t near, std::size_t far) : near_(near), far
 void DeflateBlock::close() {
   if (literals_ > 0) steps_.push_back({literals_, 0, false});
   literals_ = 0;
+  for (const auto& counts : literalCounts_)
+    std::ranges::transform(counts, counts_, counts_.begin(), std::plus{});
   counts_[kEndOfBlock] = 1;
   huffmanCodes(counts_, kLongestCode, codes_);
   // With two distances a code of one bit each is the best there is.
-  fillTable(near_, distanceCode(near_).symbol > (far_ == 0 ? kDistanceCodes : distanceCode(far_).symbol),
-            nearMatch_);
-  if (far_ != 0) fillTable(far_, distanceCode(far_).symbol > distanceCode(near_).symbol, farMatch_);
+  const DistanceCode near = distanceCode(near_);
+  const DistanceCode far = far_ == 0 ? DistanceCode{kDistanceCodes, 0, 0} : distanceCode(far_);
+  fillTable(near_, near.symbol > far.symbol, matchBits_[0]);
+  if (far_ != 0) fillTable(far_, far.symbol > near.symbol, matchBits_[1]);
 
   bits_ = 3 + 14 + 19 * 3 + (kSymbols + kDistanceCodes) * (kLongestLengthCode + 7);
-  for (std::size_t symbol = 0; symbol < kFirstLength; ++symbol)
-    bits_ += counts_[symbol] * codes_[symbol].length;
-  for (const Step& step : steps_) {
-    if (step.length > 0) bits_ += (step.far ? farMatch_ : nearMatch_)[step.length].count;
-  }
+  for (std::size_t symbol = 0; symbol < kSymbols; ++symbol)
+    bits_ += counts_[symbol] * std::size_t{codes_[symbol].length};
+  for (std::size_t index = 0; index < kLengthExtra.size(); ++index)
+    bits_ += counts_[kFirstLength + index] * std::size_t{kLengthExtra[index]};
+  bits_ += matches_[0] * std::size_t{1 + near.extraBits} + matches_[1] * std::size_t{1 + far.extraBits};
 }
 
 void DeflateBlock::fillTable(std::size_t distance, std::uint64_t bit, MatchTable& table) const {
@@ -176,7 +180,7 @@ const std::uint8_t* DeflateBlock::write(const std::uint8_t* from, bool last, Bit
     writeLiterals(from, step.literals, out);
     from += step.literals + step.length;
     if (step.length == 0) continue;
-    const MatchBits& match = (step.far ? farMatch_ : nearMatch_)[step.length];
+    const MatchBits& match = matchBits_[step.far][step.length];
     out.put(match.bits, match.count);
   }
   out.put(codes_[kEndOfBlock].bits, codes_[kEndOfBlock].length);
@@ -186,7 +190,9 @@ const std::uint8_t* DeflateBlock::write(const std::uint8_t* from, bool last, Bit
 
 void DeflateBlock::clear() {
   steps_.clear();
+  literalCounts_.fill({});
   counts_.fill(0);
+  matches_.fill(0);
   literals_ = 0;
 }
 

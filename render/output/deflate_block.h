@@ -21,14 +21,19 @@ public:
   /// Distances in bytes, 1 … kFarthest, not equal; 0 for a second one that no match will have.
   DeflateBlock(std::size_t near, std::size_t far);
 
-  /// `count` bytes at `bytes` that stand for themselves.
-  void addLiterals(const std::uint8_t* bytes, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) ++counts_[bytes[i]];
-    literals_ += static_cast<std::uint32_t>(count);
+  /// `count` bytes that stand for themselves. Which they are is told by countLiterals(), before or after.
+  void addLiterals(std::size_t count) { literals_ += static_cast<std::uint32_t>(count); }
+  /// `Count` (1 … 4) such bytes.
+  template <std::size_t Count>
+  void countLiterals(const std::uint8_t* bytes) {
+    // The channels of a pixel are often the same byte. Counted in one place, each would wait for the one
+    // before.
+    for (std::size_t i = 0; i < Count; ++i) ++literalCounts_[i][bytes[i]];
   }
   /// `length` bytes (kShortestMatch … kLongestMatch) that repeat those one distance before.
   void addMatch(std::size_t length, bool far) {
     ++counts_[kFirstLength + kLengthIndex[length]];
+    ++matches_[far];
     steps_.push_back({literals_, static_cast<std::uint16_t>(length), far});
     literals_ = 0;
   }
@@ -50,6 +55,7 @@ private:
   static constexpr std::size_t kEndOfBlock = 256;
   static constexpr std::size_t kFirstLength = 257;
   static constexpr std::size_t kSymbols = 286;
+  static constexpr std::size_t kCounters = 4;
   /// The code of each length, counted from kFirstLength.
   static const std::array<std::uint8_t, kLongestMatch + 1> kLengthIndex;
 
@@ -73,10 +79,11 @@ private:
   std::size_t far_;
   std::vector<Step> steps_;
   std::uint32_t literals_ = 0; ///< since the last match
-  std::array<std::uint32_t, kSymbols> counts_{};
+  std::array<std::array<std::uint32_t, kEndOfBlock>, kCounters> literalCounts_{};
+  std::array<std::uint32_t, kSymbols> counts_{}; ///< of matches; of literals from close() on
+  std::array<std::uint32_t, 2> matches_{};       ///< near, far
   std::array<HuffmanCode, kSymbols> codes_{};
-  MatchTable nearMatch_{};
-  MatchTable farMatch_{};
+  std::array<MatchTable, 2> matchBits_{}; ///< near, far
   std::size_t bits_ = 0;
 };
 

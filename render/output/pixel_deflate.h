@@ -21,19 +21,24 @@ public:
 
   /// Writes the stream of whole rows to `to` and returns its size. 0 when the picture is not flat (of more
   /// than a quarter of its pixels neither neighbour is a repetition), or when the stream might not fit; what
-  /// `to` holds then means nothing.
-  std::size_t compress(std::span<const std::uint8_t> rows, std::span<std::uint8_t> to);
+  /// `to` holds then means nothing. `rgba`: the same pixels, 4 bytes each and nothing between rows, which are
+  /// quicker to compare; without alpha (3 channels) its fourth bytes do not matter.
+  std::size_t compress(std::span<const std::uint8_t> rows, const std::uint8_t* rgba,
+                       std::span<std::uint8_t> to);
 
 private:
+  /// `rgba`: the row's pixels, those of the row above in front of them.
   template <std::size_t Channels>
-  void addRow(const std::uint8_t* row, bool first);
+  void addRow(const std::uint8_t* row, const std::uint8_t* rgba, bool above);
   void addMatch(std::size_t length, bool above);
 
+  std::size_t width_;
   std::size_t channels_;
   std::size_t rowBytes_;
   bool reachesAbove_;
-  RepeatMask before_; ///< from the second pixel of a row on
-  RepeatMask above_;
+  RepeatMask before_; ///< pixels that repeat the one before them
+  RepeatMask above_;  ///< pixels that repeat the one above them, where that is near enough
+  RepeatMask literals_;
   DeflateBlock block_;
   std::size_t literalPixels_ = 0;
 };

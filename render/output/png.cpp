@@ -130,14 +130,15 @@ void PngEncoder::pack(const Frame& frame, bool alpha, const PixelRect& rect) {
   }
 }
 
-std::size_t PngEncoder::compress(int width, bool alpha, std::size_t at) {
-  if (!flat_ || flatWidth_ != width || flatAlpha_ != alpha) {
-    flat_.emplace(static_cast<std::size_t>(width), alpha ? 4 : 3);
-    flatWidth_ = width;
+std::size_t PngEncoder::compress(const Frame& frame, bool alpha, std::size_t at) {
+  if (!flat_ || flatWidth_ != frame.width || flatAlpha_ != alpha) {
+    flat_.emplace(static_cast<std::size_t>(frame.width), alpha ? 4 : 3);
+    flatWidth_ = frame.width;
     flatAlpha_ = alpha;
   }
   // The room depends on the picture alone, since it decides who compresses it.
-  const std::size_t size = flat_->compress(rows_, std::span(file_).subspan(at, roomForFlat(rows_.size())));
+  const std::span<std::uint8_t> room = std::span(file_).subspan(at, roomForFlat(rows_.size()));
+  const std::size_t size = flat_->compress(rows_, frame.rgba.data(), room);
   if (size > 0) return size;
   if (!compressor_) compressor_ = std::make_unique<Compressor>();
   const std::size_t bound = libdeflate_zlib_compress_bound(compressor_->handle, rows_.size());
@@ -175,7 +176,7 @@ std::span<const std::uint8_t> PngEncoder::encode(const Frame& frame, bool alpha,
     chunks.close("pHYs", 9);
   }
 
-  const std::size_t size = compress(frame.width, alpha, chunks.size() + kChunkHead);
+  const std::size_t size = compress(frame, alpha, chunks.size() + kChunkHead);
   chunks.moveTo(file_.data()); // which may be elsewhere now
   chunks.close("IDAT", size);
   chunks.close("IEND", 0);

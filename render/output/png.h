@@ -32,8 +32,8 @@ private:
   /// Puts the frame into rows_: only its damage when they still hold its base.
   void pack(const Frame& frame, bool alpha);
   void pack(const Frame& frame, bool alpha, const PixelRect& rect);
-  /// Compresses rows_ to file_ from `at` on; returns the size.
-  std::size_t compress(int width, bool alpha, std::size_t at);
+  /// Compresses rows_, which hold the frame, to file_ from `at` on; returns the size.
+  std::size_t compress(const Frame& frame, bool alpha, std::size_t at);
 
   std::optional<PixelDeflater> flat_; ///< for pictures of these:
   int flatWidth_ = 0;

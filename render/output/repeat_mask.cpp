@@ -1,54 +1,54 @@
 #include "render/output/repeat_mask.h"
 
+#include <algorithm>
+#include <cstring>
 #include <span>
 
-#ifdef __SSE2__
+#ifdef __x86_64__
 #include <immintrin.h>
 #endif
 
 namespace offstage {
 namespace {
 
-std::uint64_t equalBytes(const std::uint8_t* a, const std::uint8_t* b, std::size_t count) {
-  std::uint64_t bits = 0;
-  for (std::size_t i = 0; i < count; ++i) bits |= std::uint64_t{a[i] == b[i]} << i;
-  return bits;
+constexpr std::size_t kPixelBytes = 4;
+
+std::uint32_t pixelAt(const std::uint8_t* at) {
+  std::uint32_t pixel = 0;
+  std::memcpy(&pixel, at, sizeof pixel);
+  return pixel;
 }
 
-#ifdef __SSE2__
-std::uint64_t equalBytesOf64(const std::uint8_t* a, const std::uint8_t* b) {
+std::uint64_t equalPixels(const std::uint8_t* a, const std::uint8_t* b, std::size_t count,
+                          std::uint32_t compared) {
   std::uint64_t bits = 0;
-  for (std::size_t i = 0; i < 64; i += 16) {
-    const __m128i equal = _mm_cmpeq_epi8(_mm_loadu_si128(reinterpret_cast<const __m128i*>(a + i)),
-                                         _mm_loadu_si128(reinterpret_cast<const __m128i*>(b + i)));
-    bits |= std::uint64_t{static_cast<std::uint32_t>(_mm_movemask_epi8(equal))} << i;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t difference = (pixelAt(a + i * kPixelBytes) ^ pixelAt(b + i * kPixelBytes)) & compared;
+    bits |= std::uint64_t{difference == 0} << i;
   }
   return bits;
 }
-#else
-std::uint64_t equalBytesOf64(const std::uint8_t* a, const std::uint8_t* b) {
-  return equalBytes(a, b, 64);
-}
-#endif
 
-void compareWords(const std::uint8_t* row, std::size_t distance, std::span<std::uint64_t> words) {
-  for (std::size_t word = 0; word < words.size(); ++word) {
-    const std::uint8_t* at = row + word * 64;
-    words[word] = equalBytesOf64(at, at - distance);
-  }
+void compareWords(const std::uint8_t* a, const std::uint8_t* b, std::uint32_t compared,
+                  std::span<std::uint64_t> words) {
+  for (std::size_t word = 0; word < words.size(); ++word)
+    words[word] = equalPixels(a + word * 64 * kPixelBytes, b + word * 64 * kPixelBytes, 64, compared);
 }
 
-#ifdef __SSE2__
-__attribute__((target("avx2"))) void compareWordsWide(const std::uint8_t* row, std::size_t distance,
+#ifdef __x86_64__
+__attribute__((target("avx2"))) void compareWordsWide(const std::uint8_t* a, const std::uint8_t* b,
+                                                      std::uint32_t compared,
                                                       std::span<std::uint64_t> words) {
+  const __m256i mask = _mm256_set1_epi32(static_cast<int>(compared));
   for (std::size_t word = 0; word < words.size(); ++word) {
     std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < 64; i += 32) {
-      const std::uint8_t* at = row + word * 64 + i;
-      const __m256i equal =
-          _mm256_cmpeq_epi8(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(at)),
-                            _mm256_loadu_si256(reinterpret_cast<const __m256i*>(at - distance)));
-      bits |= std::uint64_t{static_cast<std::uint32_t>(_mm256_movemask_epi8(equal))} << i;
+    for (std::size_t i = 0; i < 64; i += 8) {
+      const std::size_t at = (word * 64 + i) * kPixelBytes;
+      const __m256i eight = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(a + at));
+      const __m256i others = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(b + at));
+      const __m256i difference = _mm256_and_si256(_mm256_xor_si256(eight, others), mask);
+      const __m256i equal = _mm256_cmpeq_epi32(difference, _mm256_setzero_si256());
+      bits |= std::uint64_t{static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(equal)))} << i;
     }
     words[word] = bits;
   }
@@ -59,12 +59,39 @@ constexpr auto compareWordsWide = compareWords;
 
 } // namespace
 
-void RepeatMask::compare(const std::uint8_t* row, std::size_t distance) {
-  const std::size_t whole = bytes_ / kBits;
-  const std::span<std::uint64_t> words = std::span(words_).first(whole);
-  wide_ ? compareWordsWide(row, distance, words) : compareWords(row, distance, words);
-  const std::uint8_t* rest = row + whole * kBits;
-  words_[whole] = equalBytes(rest, rest - distance, bytes_ % kBits);
+void RepeatMask::compareFrom(std::size_t from, const std::uint8_t* row, const std::uint8_t* other) {
+  const std::size_t first = from / kBits;
+  const std::size_t whole = pixels_ / kBits;
+  const auto at = [](const std::uint8_t* pixels, std::size_t word) {
+    return pixels + word * kBits * kPixelBytes;
+  };
+  const std::span<std::uint64_t> words = std::span(words_).subspan(first, whole - first);
+  const auto compareAll = wide_ ? compareWordsWide : compareWords;
+  compareAll(at(row, first), at(other, first), compared_, words);
+  words_[whole] = equalPixels(at(row, whole), at(other, whole), pixels_ % kBits, compared_);
+}
+
+void RepeatMask::compare(const std::uint8_t* row, const std::uint8_t* other) {
+  compareFrom(0, row, other);
+}
+
+void RepeatMask::compareWithPrevious(const std::uint8_t* row) {
+  // Before the first pixel there may be no memory that can be read.
+  if (pixels_ > kBits) compareFrom(kBits, row, row - kPixelBytes);
+  words_[0] = equalPixels(row + kPixelBytes, row, std::min(pixels_, kBits) - 1, compared_) << 1U;
+}
+
+void RepeatMask::clear() {
+  std::ranges::fill(words_, 0);
+}
+
+void RepeatMask::setLiterals(const RepeatMask& before, const RepeatMask& above) {
+  const std::size_t whole = pixels_ / kBits;
+  for (std::size_t word = 0; word <= whole; ++word) {
+    const std::uint64_t next = above.words_[word] >> 1U | above.words_[word + 1] << (kBits - 1);
+    words_[word] = ~before.words_[word] & ~(above.words_[word] & next);
+  }
+  words_[whole] &= (std::uint64_t{1} << pixels_ % kBits) - 1;
 }
 
 } // namespace offstage
