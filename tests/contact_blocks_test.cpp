@@ -60,7 +60,7 @@ std::vector<std::uint64_t> bitsAfterSweeps(bool wide, int contacts, bool even, b
 }
 
 TEST(ContactBlocks, FourAtATimeGiveTheBitsOfTwo) {
-  if (!ContactBlocks::processorIsWide()) GTEST_SKIP() << "this processor has no AVX2";
+  if (!processorIsWide()) GTEST_SKIP() << "this processor has no AVX2";
   for (const int contacts : {1, 2, 3, 5, 60, 400, 3000}) { // from 3000 on the last colour has many
     for (const bool even : {false, true}) {
       const auto wide = bitsAfterSweeps(true, contacts, even, false);
@@ -75,7 +75,7 @@ TEST(ContactBlocks, FourAtATimeGiveTheBitsOfTwo) {
 }
 
 TEST(ContactBlocks, SharesThatAreEvenAndNotKeptGiveTheBitsOfThoseThatAre) {
-  for (const bool wide : {false, ContactBlocks::processorIsWide()}) {
+  for (const bool wide : {false, processorIsWide()}) {
     for (const int contacts : {1, 7, 400}) {
       EXPECT_EQ(bitsAfterSweeps(wide, contacts, true, false), bitsAfterSweeps(wide, contacts, true, true))
           << contacts << " contacts, " << (wide ? "four" : "two") << " at a time";

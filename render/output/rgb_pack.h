@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/output/wide.h"
+#include "src/sim/processor.h"
 
 #include <cstddef>
 #include <cstdint>

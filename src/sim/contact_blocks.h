@@ -1,5 +1,7 @@
 #pragma once
 
+#include "src/sim/processor.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -47,9 +49,7 @@ public:
     std::uint32_t number; ///< of its chunk times those that a chunk holds, and its own within the chunk
   };
 
-  /// Whether this processor can go through four contacts at a time (AVX2) rather than two. The bits are the
-  /// same.
-  static bool processorIsWide();
+  /// `wide`: four contacts at a time rather than two. The bits are the same.
   explicit ContactBlocks(bool wide = processorIsWide()) : wide_(wide) {}
 
   /// Forgets all contacts. `slots`: bodies that add() may name, at least one; the last of them never moves.

@@ -67,14 +67,6 @@ OFFSTAGE_WIDE inline void storeVelocities(const Four& vx, const Four& vy, SlotSt
 
 } // namespace
 
-bool ContactBlocks::processorIsWide() {
-#if defined(__x86_64__)
-  return __builtin_cpu_supports("avx2") != 0;
-#else
-  return false;
-#endif
-}
-
 template <bool Even>
 void ContactBlocks::warmStartRun(const Run& run, SlotState* states) {
   for (std::size_t i = 0; i < run.count * kLanes; i += 2) {

@@ -2,8 +2,8 @@
 
 namespace offstage {
 
-/// Whether this processor can work on 32 bytes at a time (AVX2). What it is asked for gives the same bytes
-/// either way.
+/// Whether this processor can work on 32 bytes at a time (AVX2). Whatever asks gives the same bits either
+/// way.
 inline bool processorIsWide() {
 #ifdef __x86_64__
   static const bool kWide = __builtin_cpu_supports("avx2") != 0;
