@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <span>
 
 #ifdef __x86_64__
 #include <immintrin.h>
@@ -29,8 +28,8 @@ std::uint64_t equalPixels(const std::uint8_t* a, const std::uint8_t* b, std::siz
   return bits;
 }
 
-void compareWords(const std::uint8_t* a, const std::uint8_t* b, std::uint32_t compared,
-                  std::span<std::uint64_t> words) {
+void compareWordsPlain(const std::uint8_t* a, const std::uint8_t* b, std::uint32_t compared,
+                       std::span<std::uint64_t> words) {
   for (std::size_t word = 0; word < words.size(); ++word)
     words[word] = equalPixels(a + word * 64 * kPixelBytes, b + word * 64 * kPixelBytes, 64, compared);
 }
@@ -54,10 +53,16 @@ __attribute__((target("avx2"))) void compareWordsWide(const std::uint8_t* a, con
   }
 }
 #else
-constexpr auto compareWordsWide = compareWords;
+constexpr auto compareWordsWide = compareWordsPlain;
 #endif
 
 } // namespace
+
+void RepeatMask::compareWords(const std::uint8_t* row, const std::uint8_t* other,
+                              std::span<std::uint64_t> words) const {
+  const auto compareAll = wide_ ? compareWordsWide : compareWordsPlain;
+  compareAll(row, other, compared_, words);
+}
 
 void RepeatMask::compareFrom(std::size_t from, const std::uint8_t* row, const std::uint8_t* other) {
   const std::size_t first = from / kBits;
@@ -66,8 +71,7 @@ void RepeatMask::compareFrom(std::size_t from, const std::uint8_t* row, const st
     return pixels + word * kBits * kPixelBytes;
   };
   const std::span<std::uint64_t> words = std::span(words_).subspan(first, whole - first);
-  const auto compareAll = wide_ ? compareWordsWide : compareWords;
-  compareAll(at(row, first), at(other, first), compared_, words);
+  compareWords(at(row, first), at(other, first), words);
   words_[whole] = equalPixels(at(row, whole), at(other, whole), pixels_ % kBits, compared_);
 }
 
@@ -76,9 +80,15 @@ void RepeatMask::compare(const std::uint8_t* row, const std::uint8_t* other) {
 }
 
 void RepeatMask::compareWithPrevious(const std::uint8_t* row) {
-  // Before the first pixel there may be no memory that can be read.
-  if (pixels_ > kBits) compareFrom(kBits, row, row - kPixelBytes);
-  words_[0] = equalPixels(row + kPixelBytes, row, std::min(pixels_, kBits) - 1, compared_) << 1U;
+  // Before the first pixel there may be no memory that can be read, so the first word is that of the second
+  // pixel on, moved up by one.
+  if (pixels_ > kBits) {
+    compareFrom(kBits, row, row - kPixelBytes);
+    compareWords(row + kPixelBytes, row, std::span(words_).first(1));
+  } else {
+    words_[0] = equalPixels(row + kPixelBytes, row, pixels_ - 1, compared_);
+  }
+  words_[0] <<= 1U;
 }
 
 void RepeatMask::clear() {

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace offstage {
@@ -59,7 +60,9 @@ public:
 
 private:
   static constexpr std::size_t kBits = 64;
-  /// The same from the pixel `from` on, a multiple of kBits.
+  /// A word for every 64 pixels.
+  void compareWords(const std::uint8_t* row, const std::uint8_t* other, std::span<std::uint64_t> words) const;
+  /// compare() from the pixel `from` on, a multiple of kBits.
   void compareFrom(std::size_t from, const std::uint8_t* row, const std::uint8_t* other);
 
   std::size_t pixels_;
