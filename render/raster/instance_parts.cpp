@@ -7,7 +7,7 @@ namespace offstage {
 namespace {
 
 /// px: shading so many more than needed costs less than what a point saves over a quad.
-constexpr int kSparePixels = 100;
+constexpr int kSparePixels = 150;
 
 /// The bounds, made square where a point can draw them and that is cheaper. What is added lies inside the
 /// clip and outside the shape: a circle's bounds differ by at most one pixel in width and height.

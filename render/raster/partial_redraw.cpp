@@ -8,8 +8,8 @@
 namespace offstage {
 namespace {
 
-// ns, measured on Mesa 22.3.6 with AVX-512
-constexpr double kPointCost = 250.0;
+// ns, measured on Mesa 22.3.6 with AVX-512; of a point about what is left since it is drawn as a rectangle
+constexpr double kPointCost = 100.0;
 constexpr double kQuadCost = 900.0;
 constexpr double kBlendedPixelCost = 5.5;
 constexpr double kWholePixelCost = 1.8;
