@@ -123,6 +123,21 @@ TEST(Output, RefusesSizesAndRatesThatNoVideoHas) {
   format = smallFormat();
   format.width = 16385;
   EXPECT_THAT(makeError(dir / "a.mp4", format), HasSubstr("at most 16384 px a side, not 16385 × 12"));
+  format.width = 16384;
+  for (const int height : {16128, 16129, 16384}) {
+    format.height = height;
+    for (const char* name : {"a.mp4", "a.mov", "a.mkv", "a.webm", "a.gif", "a.apng"}) {
+      const std::string error = makeError(dir / name, format);
+      if (height == 16128)
+        EXPECT_EQ(error, "no error") << name;
+      else
+        EXPECT_THAT(error, AllOf(StartsWith("2: "), HasSubstr(name), HasSubstr("at most 16128 px of height"),
+                                 HasSubstr("a PNG sequence")));
+    }
+    EXPECT_EQ(makeError(dir / "a%d.png", format), "no error") << height;
+    EXPECT_EQ(makeError(dir / "a.raw", format), "no error") << height;
+  }
+  format.height = 12;
   for (const int width : {0, -16}) {
     format.width = width;
     for (const char* name : {"a.mp4", "a.raw", "a%d.png", "a.gif", "a.apng"}) {

@@ -6,6 +6,7 @@
 #include "render/output/gif_palette.h"
 #include "render/output/gif_writer.h"
 #include "render/output/output_kind.h"
+#include "render/output/picture_limit.h"
 #include "render/output/verify_animation.h"
 #include "src/sim/error.h"
 
@@ -124,10 +125,7 @@ GifOutput::GifOutput(const std::filesystem::path& path, const SinkFormat& format
     : path_(path), format_(format) {
   if (format.alpha) refuseTransparency(path, "a .gif");
   if (format.quality) refuseQuality(path, "a .gif has one quality, 255 colours");
-  if (format.width > kMostSide || format.height > kMostSide) {
-    throw Error(ExitCode::BadInput, fmt::format("{}: a .gif is at most {} px a side, not {} × {}",
-                                                quoted(path), kMostSide, format.width, format.height));
-  }
+  requireCodedSize(path, "a .gif", kMostSide, format.width, format.height);
   if (!(format.fps >= 0.0 && std::isfinite(format.fps)))
     throw Error(ExitCode::BadInput, fmt::format("{}: {} is no rate of frames", quoted(path), format.fps));
   if (format.fps > kMostFps) every_ = static_cast<std::int64_t>(std::ceil(format.fps / kMostFps));
