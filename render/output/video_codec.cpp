@@ -116,9 +116,10 @@ OptionList h264Options(Quality quality) {
 OptionList vp9Options(Quality quality) {
   // Constant quality (crf with b=0). Threads and tiles would change the bytes with the machine. In one pass
   // the encoder makes nothing of frames ahead: with 16 of them SSIM and size were the same in all digits
-  // shown
-  // (.999477, 484 KB for a second of bouncing balls; .999668, 94 KB for two of plots), and 74 MB more were
-  // taken at 1920 × 1080. Its alternate reference frames need them, and do not go with transparency.
+  // shown (.999477, 484 KB for a second of bouncing balls; .999668, 94 KB for two of plots), and 74 MB more
+  // were taken at 1920 × 1080. Its alternate reference frames need them, and do not go with transparency.
+  // What it takes of memory beyond that no setting changes; src/app/memset.cpp keeps most of it from being
+  // taken.
   OptionList options{{"b", "0"},         {"row-mt", "0"},        {"tile-columns", "0"},
                      {"tile-rows", "0"}, {"lag-in-frames", "0"}, {"auto-alt-ref", "0"}};
   const auto set = [&options](const char* deadline, const char* speed, const char* crf) {
