@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -145,6 +146,21 @@ TEST(Output, RefusesSizesAndRatesThatNoVideoHas) {
     }
   }
   EXPECT_THAT(dir.names(), IsEmpty());
+}
+
+TEST(Output, RefusesSidesThatFfv1DoesNotKeep) {
+  const TempDir dir;
+  SinkFormat format = smallFormat();
+  format.alpha = true;
+  format.quality = Quality::Lossless;
+  for (const auto& [width, height] : {std::pair{2, 3}, {3, 2}, {1, 1}, {100, 2}}) {
+    format.width = width;
+    format.height = height;
+    EXPECT_THAT(makeError(dir / "a.mkv", format),
+                AllOf(StartsWith("2: "), HasSubstr("at least 3 px a side"), HasSubstr(".apng")));
+  }
+  format.width = format.height = 3;
+  EXPECT_EQ(makeError(dir / "a.mkv", format), "no error");
 }
 
 TEST(Output, RefusesAQualityThatAFormatDoesNotHave) {

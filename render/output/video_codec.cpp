@@ -86,15 +86,15 @@ constexpr const char* kX264High =
     "b-adapt=0:bframes=2:b-pyramid=none:ref=2:dct-decimate=0:rc-lookahead=5:cpu-independent=1";
 
 const std::vector<CodecTraits> kCodecs{
-    {VideoCodec::H264, "libx264", ".mp4 .mkv .mov", "libavcodec59", "H.264", false, true, 16384, "h264",
+    {VideoCodec::H264, "libx264", ".mp4 .mkv .mov", "libavcodec59", "H.264", false, true, 1, 16384, "h264",
      "High", AV_PIX_FMT_YUV420P, AV_PIX_FMT_NONE, AV_PIX_FMT_YUV420P},
-    {VideoCodec::H264Rgb, "libx264rgb", "lossless .mkv", "libavcodec59", "lossless H.264", true, false, 16384,
-     "h264", "High 4:4:4 Predictive", AV_PIX_FMT_BGR0, AV_PIX_FMT_NONE, AV_PIX_FMT_GBRP},
-    {VideoCodec::Vp9, "libvpx-vp9", ".webm", "libavcodec59", "VP9", false, true, 16384, "vp9", "Profile 0",
+    {VideoCodec::H264Rgb, "libx264rgb", "lossless .mkv", "libavcodec59", "lossless H.264", true, false, 1,
+     16384, "h264", "High 4:4:4 Predictive", AV_PIX_FMT_BGR0, AV_PIX_FMT_NONE, AV_PIX_FMT_GBRP},
+    {VideoCodec::Vp9, "libvpx-vp9", ".webm", "libavcodec59", "VP9", false, true, 1, 16384, "vp9", "Profile 0",
      AV_PIX_FMT_YUV420P, AV_PIX_FMT_YUVA420P, AV_PIX_FMT_YUV420P},
-    {VideoCodec::ProRes, "prores_ks", "transparent .mov", "libavcodec59", "ProRes 4444", false, false, 16384,
-     "prores", "4444", AV_PIX_FMT_NONE, AV_PIX_FMT_YUVA444P10, AV_PIX_FMT_YUVA444P12},
-    {VideoCodec::Ffv1, "ffv1", "transparent lossless .mkv", "libavcodec59", "FFV1", true, false, 16384,
+    {VideoCodec::ProRes, "prores_ks", "transparent .mov", "libavcodec59", "ProRes 4444", false, false, 1,
+     16384, "prores", "4444", AV_PIX_FMT_NONE, AV_PIX_FMT_YUVA444P10, AV_PIX_FMT_YUVA444P12},
+    {VideoCodec::Ffv1, "ffv1", "transparent lossless .mkv", "libavcodec59", "FFV1", true, false, 3, 16384,
      "ffv1", nullptr, AV_PIX_FMT_NONE, AV_PIX_FMT_BGRA, AV_PIX_FMT_BGRA},
 };
 

@@ -51,6 +51,11 @@ EncoderSettings settingsOf(const std::filesystem::path& path, Container containe
   settings.width = format.width;
   settings.height = format.height;
   const CodecTraits& traits = traitsOf(settings.codec);
+  if (format.width < traits.leastSide || format.height < traits.leastSide)
+    throw Error(ExitCode::BadInput,
+                fmt::format("{}: {} holds at least {} px a side, not {} × {}; use .apng or a PNG sequence "
+                            "(frames/%06d.png)",
+                            quoted(path), traits.title, traits.leastSide, format.width, format.height));
   requireCodedSize(path, traits.title, traits.mostSide, format.width, format.height);
   requireEncoder(settings.codec);
   const AVRational rate = frameRateOf(format.fps);
