@@ -79,6 +79,31 @@ TEST(ColorTable, HoldsWhatAMapHolds) {
   EXPECT_EQ(table.find(3), nullptr);
 }
 
+TEST(ColorHistogram, KeepsABackgroundsColourAmongMoreColoursThanItCounts) {
+  ColorHistogram histogram;
+  std::mt19937 random(1);
+  for (int frame = 0; frame < 4; ++frame) {
+    std::vector<std::uint8_t> pixels;
+    for (int i = 0; i < 100000; ++i) {
+      for (const std::uint8_t level : {levelOf(random), levelOf(random), levelOf(random)})
+        pixels.push_back(level);
+      pixels.push_back(255);
+    }
+    for (int i = 0; i < 100000; ++i) pixels.insert(pixels.end(), {255, 255, 255, 255});
+    for (int i = 0; i < 20000; ++i) pixels.insert(pixels.end(), {13, 77, 201, 255});
+    for (int i = 0; i < 10000; ++i) pixels.insert(pixels.end(), {1, 2, 3, 0}); // not seen
+    histogram.add(pixels);
+  }
+  std::uint64_t all = 0;
+  for (const ColorHistogram::Entry& entry : histogram.entries()) all += entry.count;
+  EXPECT_EQ(all, 4U * 220000U);
+  EXPECT_LT(histogram.entries().size(), 140000U);
+  const std::vector<GifColor> palette = makePalette(histogram);
+  EXPECT_EQ(palette.size(), 255U);
+  EXPECT_EQ(palette[0], (GifColor{255, 255, 255}));
+  EXPECT_EQ(palette[1], (GifColor{13, 77, 201}));
+}
+
 TEST(PaletteDither, MixesColoursToTheMeanAndLeavesWhatIsTransparent) {
   PaletteDither dither({{0, 0, 0}, {255, 255, 255}, {200, 0, 0}});
   std::vector<std::uint8_t> row;

@@ -98,23 +98,35 @@ void ColorHistogram::add(std::span<const std::uint8_t> rgba) {
       ++run;
       i += 4;
     } while (i + 4 <= rgba.size() && keyOfColor(&rgba[i]) == key && rgba[i + 3] == alpha);
-    if (alpha == 255) counts_[key & mask_] += run;
-    if (counts_.size() > kMostCounted) merge();
+    if (alpha == 255) groups_[key & mask_].add(key, run, run);
+    if (groups_.size() > kMostCounted) merge();
+  }
+}
+
+void ColorHistogram::Group::add(std::uint32_t added, std::uint64_t addedCount, std::uint64_t all) {
+  count += all;
+  if (added == color) {
+    colorCount += addedCount;
+  } else if (addedCount > colorCount) {
+    color = added;
+    colorCount = addedCount;
   }
 }
 
 void ColorHistogram::merge() {
   mask_ = (mask_ << 1U) & mask_ & 0xFEFEFEU; // one bit less a channel
-  ColorTable<std::uint64_t> merged;
-  counts_.forEach([&](std::uint32_t key, std::uint64_t count) { merged[key & mask_] += count; });
-  counts_ = std::move(merged);
+  ColorTable<Group> merged;
+  groups_.forEach([&](std::uint32_t key, const Group& group) {
+    merged[key & mask_].add(group.color, group.colorCount, group.count);
+  });
+  groups_ = std::move(merged);
 }
 
 std::vector<Entry> ColorHistogram::entries() const {
   std::vector<Entry> entries;
-  entries.reserve(counts_.size());
-  counts_.forEach([&](std::uint32_t key, std::uint64_t count) {
-    entries.push_back({colorOfKey(key), count});
+  entries.reserve(groups_.size());
+  groups_.forEach([&](std::uint32_t /*key*/, const Group& group) {
+    entries.push_back({colorOfKey(group.color), group.count});
   });
   std::ranges::sort(entries, {}, &Entry::color);
   return entries;

@@ -20,7 +20,8 @@ inline GifColor colorOfKey(std::uint32_t key) {
           static_cast<std::uint8_t>(key)};
 }
 
-/// Counts the colours of a clip. Beyond 131072 different ones, similar ones are counted together.
+/// Counts the colours of a clip. Beyond 131072 different ones, similar ones are counted together, under the
+/// one that is most frequent among them: a background keeps its colour.
 class ColorHistogram {
 public:
   /// Opaque pixels only: a transparent one stands for no change.
@@ -32,8 +33,15 @@ public:
   [[nodiscard]] std::vector<Entry> entries() const; ///< in the order of the colours' values
 
 private:
+  /// Colours that are counted together.
+  struct Group {
+    std::uint64_t count = 0;
+    std::uint32_t color = 0;      ///< the most frequent
+    std::uint64_t colorCount = 0; ///< its own count, or since it became that
+    void add(std::uint32_t color, std::uint64_t colorCount, std::uint64_t count);
+  };
   void merge();
-  ColorTable<std::uint64_t> counts_;
+  ColorTable<Group> groups_;
   std::uint32_t mask_ = 0xFFFFFFU;
 };
 
