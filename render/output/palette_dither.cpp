@@ -43,7 +43,7 @@ const PaletteDither::Plan& PaletteDither::planOf(std::uint32_t key) {
 }
 
 void PaletteDither::indices(std::span<const std::uint8_t> rgba, int x, int y, std::uint8_t* indices) {
-  const std::uint8_t* const thresholds = &kThresholds[static_cast<std::size_t>(y % kSide * kSide)];
+  const std::uint8_t* const thresholds = &kThresholds[static_cast<std::size_t>(y % kSide) * kSide];
   const Plan* plan = nullptr;
   std::uint32_t planned = 0;
   for (std::size_t at = 0; at < rgba.size(); at += 4, ++x, ++indices) {

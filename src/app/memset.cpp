@@ -30,8 +30,8 @@ extern "C" {
 
 // The C library's memset() by its other name (Linux Standard Base, Core, __memset_chk): `room` is how much
 // may be written.
-void* __memset_chk(void* to, int value, std::size_t size,
-                   std::size_t room); // NOLINT(bugprone-reserved-identifier)
+// NOLINTNEXTLINE(bugprone-reserved-identifier)
+void* __memset_chk(void* to, int value, std::size_t size, std::size_t room);
 
 void* memset(void* to, int value, std::size_t size) noexcept {
   // Volatile, else the compiler knows both functions and makes a call of this one of it.
