@@ -14,6 +14,7 @@
 #include <unistd.h>
 #include <vector>
 
+#include <climits>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -244,12 +245,39 @@ TEST(AtomicFile, OnlyAbandonedTemporariesOfTheNamesAskedForAreRemoved) {
   for (const auto& names : {left, others})
     for (const std::string& name : names) dir.write(name, "x");
   AtomicFile living(dir / "a.mp4");
-  removeAbandoned(dir.path(), [](std::string_view name) { return name == "a.mp4"; });
+  removeAbandoned(dir.path(), [](std::string_view name, bool whole) { return whole && name == "a.mp4"; });
   for (const std::string& name : left) EXPECT_FALSE(fs::exists(dir / name)) << name;
   for (const std::string& name : others) EXPECT_TRUE(fs::exists(dir / name)) << name;
   EXPECT_TRUE(fs::exists(living.temporary()));
   living.commit();
-  removeAbandoned(dir / "missing", [](std::string_view) { return true; }); // is no error
+  removeAbandoned(dir / "missing", [](std::string_view, bool) { return true; }); // is no error
+}
+
+TEST(AtomicFile, AbandonedTemporariesOfLongNamesAreFoundByTheirBeginning) {
+  const TempDir dir;
+  for (const std::string letter : {"a", "é"}) {
+    std::string name;
+    while (name.size() + letter.size() <= NAME_MAX - 4) name += letter;
+    name += ".mp4";
+    std::vector<std::string> left;
+    { // as a killed process leaves them: there, and not locked
+      const AtomicFile first(dir / name);
+      const AtomicFile second(dir / name);
+      for (const AtomicFile* file : {&first, &second}) left.push_back(file->temporary().filename().native());
+    }
+    for (const std::string& file : left) dir.write(file, "x");
+    const std::string other = ".b" + left.front().substr(2);
+    dir.write(other, "x");
+    AtomicFile living(dir / name);
+    removeAbandoned(dir.path(), [&](std::string_view found, bool whole) {
+      return whole ? found == name : std::string_view(name).starts_with(found);
+    });
+    EXPECT_TRUE(fs::exists(living.temporary()));
+    for (const std::string& file : left)
+      EXPECT_FALSE(fs::exists(dir / file)) << file.size() << " bytes: " << file;
+    EXPECT_TRUE(fs::exists(dir / other));
+    fs::remove(dir / other);
+  }
 }
 
 TEST(AtomicFile, ForkedCopyRemovesNothing) {

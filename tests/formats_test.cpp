@@ -4,9 +4,11 @@
 #include "tests/support/temp_dir.h"
 #include "tests/support/test_frames.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -97,6 +99,39 @@ INSTANTIATE_TEST_SUITE_P(All, Formats,
                              if (c == '.' || c == '-') c = '_';
                            return name;
                          });
+
+/// A frame in which every pixel differs from its neighbours and from the frame before.
+Frame smallFrame(int width, int height, int number, bool alpha) {
+  Frame frame = noiseFrame(width, height, static_cast<std::uint32_t>(number + 1));
+  for (std::size_t i = 3; !alpha && i < frame.rgba.size(); i += 4) frame.rgba[i] = 255;
+  return frame;
+}
+
+TEST(Formats, WhatLosesNothingLosesNothingOfTheSmallestPictures) {
+  const TempDir dir;
+  for (const auto& [width, height] :
+       {std::pair{1, 1}, {1, 7}, {7, 1}, {2, 2}, {3, 3}, {3, 5}, {353, 3}, {3, 289}}) {
+    for (const bool alpha : {false, true}) {
+      for (const char* name : {"a.mkv", "a.apng"}) {
+        if (alpha && name == std::string("a.mkv") && std::min(width, height) < 3) continue; // is refused
+        SinkFormat format = formatOf(width, height, 30.0);
+        format.alpha = alpha;
+        format.quality = Quality::Lossless;
+        writeOutput(dir / name, format, fixedTimings(3, 30.0), [&, size = std::pair{width, height}](int k) {
+          return smallFrame(size.first, size.second, k, alpha);
+        });
+        const std::vector<ShownFrame> frames = decodeFrames(dir / name);
+        ASSERT_EQ(frames.size(), 3U) << name << ' ' << width << 'x' << height;
+        for (int k = 0; k < 3; ++k) {
+          const FrameDifference difference =
+              compareFrames(frames[static_cast<std::size_t>(k)].frame, smallFrame(width, height, k, alpha));
+          EXPECT_EQ(difference.worst, 0) << name << ' ' << width << 'x' << height << (alpha ? " alpha" : "");
+          EXPECT_EQ(difference.meanAlpha, 0.0) << name << ' ' << width << 'x' << height;
+        }
+      }
+    }
+  }
+}
 
 TEST(Formats, BetterQualitiesAreCloserAndLarger) {
   const TempDir dir;

@@ -71,6 +71,14 @@ TEST(FramePattern, KnowsItsOwnNames) {
   }
 }
 
+TEST(FramePattern, KnowsHowItsNamesBegin) {
+  const FramePattern pattern("a/f%03d7.png");
+  for (const char* begin : {"", "f", "f0", "f007", "f0077", "f0077.p", "f123457.png"})
+    EXPECT_TRUE(pattern.mayBeginWith(begin)) << begin;
+  for (const char* other : {"g", "fx", "f07.", "f0078.png", "f007.png", "f0077.png~"})
+    EXPECT_FALSE(pattern.mayBeginWith(other)) << other;
+}
+
 TEST(PngSequence, MakesTheFolderAndNumbersFromZero) {
   const TempDir dir;
   const test::Written written =

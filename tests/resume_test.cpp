@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include <climits>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -196,9 +197,16 @@ TEST(Resume, AnotherSceneOrOptionStartsOverAndSaysSo) {
 TEST(Resume, WhatAKilledRunLeftBesideTheOutputIsRemoved) {
   const TempDir dir;
   std::filesystem::create_directory(dir / "f");
-  const std::vector<std::filesystem::path> left{dir.write(".x.mp4.4194305.partial", "cut off"),
-                                                dir.write("f/.0003.png.4194305.partial", "cut off")};
-  for (const char* out : {"x.mp4", "f/%04d.png"}) {
+  std::vector<std::filesystem::path> left{dir.write(".x.mp4.4194305.partial", "cut off"),
+                                          dir.write("f/.0003.png.4194305.partial", "cut off")};
+  // Names of 250 bytes, of which a temporary holds only the beginning.
+  const std::string longest(246, 'n');
+  for (const std::string& name : {longest, longest.substr(0, 150) + "000" + longest.substr(0, 93)}) {
+    const std::string ending = ".4194305.partial";
+    left.push_back(dir.write("." + name.substr(0, NAME_MAX - 1 - ending.size()) + ending, "cut off"));
+  }
+  for (const std::string& out : {std::string("x.mp4"), std::string("f/%04d.png"), longest + ".mp4",
+                                 longest.substr(0, 150) + "%03d" + longest.substr(0, 93) + ".png"}) {
     const ProcessResult result = runProcess(renderTo(dir / out, {"--size", "64x48"}, "0.2"));
     EXPECT_EQ(result.status, 0) << result.err;
   }

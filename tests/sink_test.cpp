@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -123,6 +124,21 @@ TEST(Output, RefusesSizesAndRatesThatNoVideoHas) {
   format = smallFormat();
   format.width = 16385;
   EXPECT_THAT(makeError(dir / "a.mp4", format), HasSubstr("at most 16384 px a side, not 16385 × 12"));
+  format.width = 16384;
+  for (const int height : {16128, 16129, 16384}) {
+    format.height = height;
+    for (const char* name : {"a.mp4", "a.mov", "a.mkv", "a.webm", "a.gif", "a.apng"}) {
+      const std::string error = makeError(dir / name, format);
+      if (height == 16128)
+        EXPECT_EQ(error, "no error") << name;
+      else
+        EXPECT_THAT(error, AllOf(StartsWith("2: "), HasSubstr(name), HasSubstr("at most 16128 px of height"),
+                                 HasSubstr("a PNG sequence")));
+    }
+    EXPECT_EQ(makeError(dir / "a%d.png", format), "no error") << height;
+    EXPECT_EQ(makeError(dir / "a.raw", format), "no error") << height;
+  }
+  format.height = 12;
   for (const int width : {0, -16}) {
     format.width = width;
     for (const char* name : {"a.mp4", "a.raw", "a%d.png", "a.gif", "a.apng"}) {
@@ -130,6 +146,21 @@ TEST(Output, RefusesSizesAndRatesThatNoVideoHas) {
     }
   }
   EXPECT_THAT(dir.names(), IsEmpty());
+}
+
+TEST(Output, RefusesSidesThatFfv1DoesNotKeep) {
+  const TempDir dir;
+  SinkFormat format = smallFormat();
+  format.alpha = true;
+  format.quality = Quality::Lossless;
+  for (const auto& [width, height] : {std::pair{2, 3}, {3, 2}, {1, 1}, {100, 2}}) {
+    format.width = width;
+    format.height = height;
+    EXPECT_THAT(makeError(dir / "a.mkv", format),
+                AllOf(StartsWith("2: "), HasSubstr("at least 3 px a side"), HasSubstr(".apng")));
+  }
+  format.width = format.height = 3;
+  EXPECT_EQ(makeError(dir / "a.mkv", format), "no error");
 }
 
 TEST(Output, RefusesAQualityThatAFormatDoesNotHave) {

@@ -119,11 +119,14 @@ private:
     const fs::path out = fs::weakly_canonical(options_.out);
     if (outputKind(out) == OutputKind::PngSequence) {
       const FramePattern pattern(out);
-      removeAbandoned(pattern.folder(),
-                      [&](std::string_view name) { return pattern.numberOf(name).has_value(); });
+      removeAbandoned(pattern.folder(), [&](std::string_view name, bool whole) {
+        return whole ? pattern.numberOf(name).has_value() : pattern.mayBeginWith(name);
+      });
     } else {
-      removeAbandoned(out.parent_path(),
-                      [&](std::string_view name) { return name == out.filename().native(); });
+      const std::string wanted = out.filename().native();
+      removeAbandoned(out.parent_path(), [&](std::string_view name, bool whole) {
+        return whole ? name == wanted : wanted.starts_with(name);
+      });
     }
   }
 

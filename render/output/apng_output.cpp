@@ -6,11 +6,13 @@
 #include "render/output/file_error.h"
 #include "render/output/libav.h"
 #include "render/output/output_kind.h"
+#include "render/output/picture_limit.h"
 #include "render/output/verify_animation.h"
 #include "src/sim/error.h"
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <fmt/format.h>
@@ -20,6 +22,7 @@ namespace offstage {
 namespace {
 
 constexpr int kMostDelayTerm = 65535;
+constexpr int kMostSide = std::numeric_limits<std::int32_t>::max(); ///< px
 constexpr std::int64_t kNsPerMs = 1000000;
 
 std::int64_t millisecondOf(std::int64_t nanoseconds) {
@@ -77,6 +80,7 @@ std::uint32_t asUnsigned(int value) {
 ApngOutput::ApngOutput(const std::filesystem::path& path, const SinkFormat& format)
     : path_(path), format_(format) {
   if (format.quality && *format.quality != Quality::Lossless) refuseQuality(path, "an .apng is lossless");
+  requireCodedSize(path, "an .apng", kMostSide, format.width, format.height);
   if (!(format.fps >= 0.0 && format.fps <= 1000.0))
     throw Error(ExitCode::BadInput,
                 fmt::format("{}: an .apng has up to 1000 frames a second, not {}", quoted(path), format.fps));

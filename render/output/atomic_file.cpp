@@ -96,11 +96,15 @@ bool dropNumber(std::string_view& name) {
 
 /// Whether this is a temporary's name, with or without the number of an attempt, of a name that `isOurs`
 /// accepts.
-bool isTemporaryOf(std::string_view name, const std::function<bool(std::string_view name)>& isOurs) {
+bool isTemporaryOf(std::string_view name, const NameTest& isOurs) {
   if (!name.starts_with('.') || !name.ends_with(kTemporaryEnding)) return false;
+  // One that was cut is as long as a name can be, but for a UTF-8 character that would have been cut in two.
+  constexpr std::size_t kLongestCharacter = 4;
+  const bool maybeCut = name.size() > NAME_MAX - kLongestCharacter;
   name.remove_prefix(1);
   name.remove_suffix(kTemporaryEnding.size());
-  return dropNumber(name) && (isOurs(name) || (dropNumber(name) && isOurs(name)));
+  const auto accepted = [&] { return isOurs(name, true) || (maybeCut && isOurs(name, false)); };
+  return dropNumber(name) && (accepted() || (dropNumber(name) && accepted()));
 }
 
 } // namespace
@@ -193,7 +197,7 @@ void requireWritable(const fs::path& path) {
   const AtomicFile probe(path);
 }
 
-void removeAbandoned(const fs::path& folder, const std::function<bool(std::string_view name)>& isOurs) {
+void removeAbandoned(const fs::path& folder, const NameTest& isOurs) {
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     if (!isTemporaryOf(entry->path().filename().native(), isOurs)) continue;

@@ -15,10 +15,11 @@ struct TemporaryRecord;
 /// then fsync and rename. Destroyed without commit(), it removes the temporary and leaves an older file of
 /// that name as it was.
 ///
-/// The temporary is hidden, bears the process id: `.NAME.PID.partial`, and is locked (flock) while it lasts.
-/// A name that is a symbolic link is followed, as a shell's `>` does: the link stays, and what it points to
-/// is replaced. The new file has the permissions of the file it replaces, or 0666 less the umask. A process
-/// forked meanwhile holds a copy that neither removes the temporary nor may commit it.
+/// The temporary is hidden, bears the process id: `.NAME.PID.partial` (of a long NAME only the beginning),
+/// and is locked (flock) while it lasts. A name that is a symbolic link is followed, as a shell's `>` does:
+/// the link stays, and what it points to is replaced. The new file has the permissions of the file it
+/// replaces, or 0666 less the umask. A process forked meanwhile holds a copy that neither removes the
+/// temporary nor may commit it.
 class AtomicFile {
 public:
   /// Opens the temporary file. Throws Error(BadInput) when `path` is empty, a folder, a device, a pipe or a
@@ -59,10 +60,13 @@ private:
 /// know before a long computation whether its result can be written.
 void requireWritable(const std::filesystem::path& path);
 
+/// Tells a file by its name, or, with `whole` = false, by how its name begins: a temporary's name that would
+/// be too long holds no more of it.
+using NameTest = std::function<bool(std::string_view name, bool whole)>;
+
 /// Removes from `folder` the temporaries that killed processes have left of files whose names `isOurs`
 /// accepts. Those of living processes stay: each holds a lock on its own.
-void removeAbandoned(const std::filesystem::path& folder,
-                     const std::function<bool(std::string_view name)>& isOurs);
+void removeAbandoned(const std::filesystem::path& folder, const NameTest& isOurs);
 
 /// Waits until the folder's entries are on the disk.
 void syncFolder(const std::filesystem::path& folder);

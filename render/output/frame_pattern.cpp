@@ -79,4 +79,16 @@ std::optional<std::int64_t> FramePattern::numberOf(std::string_view name) const 
   return number;
 }
 
+bool FramePattern::mayBeginWith(std::string_view begin) const {
+  if (begin.size() <= before_.size()) return std::string_view(before_).starts_with(begin);
+  if (!begin.starts_with(before_)) return false;
+  begin.remove_prefix(before_.size());
+  // What follows the number may begin with digits, too.
+  for (int digits = 0; !begin.empty() && isDigit(begin.front()); begin.remove_prefix(1)) {
+    ++digits;
+    if (digits >= digits_ && std::string_view(after_).starts_with(begin.substr(1))) return true;
+  }
+  return begin.empty();
+}
+
 } // namespace offstage

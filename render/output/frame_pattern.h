@@ -20,6 +20,8 @@ public:
   [[nodiscard]] std::filesystem::path path(std::int64_t number) const;
   /// The number of a file's name (without folder) that this pattern makes; nothing for other names.
   [[nodiscard]] std::optional<std::int64_t> numberOf(std::string_view name) const;
+  /// Whether the name of some number begins so.
+  [[nodiscard]] bool mayBeginWith(std::string_view begin) const;
 
 private:
   std::filesystem::path folder_;

@@ -6,6 +6,8 @@
 #include "render/output/gif_palette.h"
 #include "render/output/gif_writer.h"
 #include "render/output/output_kind.h"
+#include "render/output/palette_dither.h"
+#include "render/output/picture_limit.h"
 #include "render/output/verify_animation.h"
 #include "src/sim/error.h"
 
@@ -39,20 +41,21 @@ public:
         height_(height),
         writer_(file, width, height, palette),
         dither_(std::move(palette)),
-        now_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+        now_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
+        before_(now_) {}
 
   /// Lays a patch over the clip; it is shown from `tick` on.
   void apply(const AnimationPatch& patch, std::span<const std::uint8_t> rows, std::int64_t tick) {
-    before_ = now_;
-    const std::uint8_t* from = rows.data();
+    const auto bytes = static_cast<std::size_t>(patch.rect.right - patch.rect.left) * 4;
     for (int y = patch.rect.top; y < patch.rect.bottom; ++y) {
-      ++from; // the filter byte
-      for (int x = patch.rect.left; x < patch.rect.right; ++x, from += 4)
-        if (from[3] != 0) now_[at(x, y)] = dither_.index(from, x, y);
+      dither_.indices(rows.subspan(1, bytes), patch.rect.left, y, &now_[at(patch.rect.left, y)]);
+      rows = rows.subspan(1 + bytes); // the filter byte, and the pixels
     }
-    if (pending_ && now_ == before_) return; // the frame before simply stays longer
+    const bool first = !frames_ && !pending_;
+    const PixelRect rect = first ? PixelRect{0, 0, width_, height_} : changed(patch.rect);
+    if (rect.empty()) return; // the frame before simply stays longer
     flush(tick);
-    cut(!frames_ && !pending_);
+    cut(rect, first);
     shownFrom_ = tick;
     pending_ = true;
   }
@@ -87,21 +90,34 @@ private:
     pending_ = false;
   }
 
-  /// The smallest rectangle that holds all that changed, and its indices.
-  void cut(bool whole) {
-    rect_ = whole ? PixelRect{0, 0, width_, height_} : PixelRect{width_, height_, 0, 0};
-    for (int y = 0; y < height_ && !whole; ++y) {
-      for (int x = 0; x < width_; ++x) {
-        if (now_[at(x, y)] == before_[at(x, y)]) continue;
-        rect_ = {std::min(rect_.left, x), std::min(rect_.top, y), std::max(rect_.right, x + 1), y + 1};
-      }
+  /// The smallest rectangle that holds all that changed; outside of `within` nothing did.
+  [[nodiscard]] PixelRect changed(const PixelRect& within) const {
+    PixelRect rect{width_, height_, 0, 0};
+    for (int y = within.top; y < within.bottom; ++y) {
+      const auto row = now_.begin() + static_cast<std::ptrdiff_t>(at(0, y));
+      const auto then = before_.begin() + static_cast<std::ptrdiff_t>(at(0, y));
+      const auto left = std::mismatch(row + within.left, row + within.right, then + within.left).first - row;
+      if (left == within.right) continue;
+      auto right = static_cast<std::ptrdiff_t>(within.right);
+      while (row[right - 1] == then[right - 1]) --right;
+      rect = {std::min(rect.left, static_cast<int>(left)), std::min(rect.top, y),
+              std::max(rect.right, static_cast<int>(right)), y + 1};
     }
-    indices_.clear();
-    for (int y = rect_.top; y < rect_.bottom; ++y) {
-      for (int x = rect_.left; x < rect_.right; ++x) {
-        const std::uint8_t index = now_[at(x, y)];
-        indices_.push_back(!whole && index == before_[at(x, y)] ? GifWriter::kUnchanged : index);
-      }
+    return rect;
+  }
+
+  /// Makes a rectangle the pending frame: its indices, and of what did not change none.
+  void cut(const PixelRect& rect, bool whole) {
+    rect_ = rect;
+    const auto columns = static_cast<std::size_t>(rect.right - rect.left);
+    indices_.resize(columns * static_cast<std::size_t>(rect.bottom - rect.top));
+    std::uint8_t* to = indices_.data();
+    for (int y = rect.top; y < rect.bottom; ++y, to += columns) {
+      const std::uint8_t* const row = &now_[at(rect.left, y)];
+      std::uint8_t* const then = &before_[at(rect.left, y)];
+      for (std::size_t x = 0; x < columns; ++x)
+        to[x] = !whole && row[x] == then[x] ? GifWriter::kUnchanged : row[x];
+      std::copy_n(row, columns, then);
     }
   }
 
@@ -109,8 +125,8 @@ private:
   int height_;
   GifWriter writer_;
   PaletteDither dither_;
-  std::vector<std::uint8_t> now_;
-  std::vector<std::uint8_t> before_;
+  std::vector<std::uint8_t> now_;    ///< the clip with the last patch
+  std::vector<std::uint8_t> before_; ///< with what was cut from it
   bool pending_ = false;
   PixelRect rect_;                    ///< of the pending frame
   std::vector<std::uint8_t> indices_; ///< of the pending frame
@@ -124,10 +140,7 @@ GifOutput::GifOutput(const std::filesystem::path& path, const SinkFormat& format
     : path_(path), format_(format) {
   if (format.alpha) refuseTransparency(path, "a .gif");
   if (format.quality) refuseQuality(path, "a .gif has one quality, 255 colours");
-  if (format.width > kMostSide || format.height > kMostSide) {
-    throw Error(ExitCode::BadInput, fmt::format("{}: a .gif is at most {} px a side, not {} × {}",
-                                                quoted(path), kMostSide, format.width, format.height));
-  }
+  requireCodedSize(path, "a .gif", kMostSide, format.width, format.height);
   if (!(format.fps >= 0.0 && std::isfinite(format.fps)))
     throw Error(ExitCode::BadInput, fmt::format("{}: {} is no rate of frames", quoted(path), format.fps));
   if (format.fps > kMostFps) every_ = static_cast<std::int64_t>(std::ceil(format.fps / kMostFps));

@@ -1,30 +1,18 @@
 #include "render/output/gif_palette.h"
 
+#include "render/output/nearest_color.h"
+
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 namespace offstage {
 namespace {
 
 constexpr std::size_t kMostCounted = 131072;
-constexpr std::size_t kMostPlans = 131072;
 constexpr std::size_t kMostColors = 255; ///< one of 256 is left for "unchanged"
 /// Colours that fill areas: at most so many, and each at least this share of all pixels.
 constexpr std::size_t kMostExact = 64;
 constexpr std::uint64_t kExactShare = 2000;
-
-/// The eye's weights of the channels' squared differences, roughly.
-constexpr std::array<int, 3> kWeights{3, 6, 1};
-
-std::uint32_t keyOf(const std::uint8_t* rgb) {
-  return static_cast<std::uint32_t>(rgb[0]) << 16U | static_cast<std::uint32_t>(rgb[1]) << 8U | rgb[2];
-}
-
-GifColor colorOf(std::uint32_t key) {
-  return {static_cast<std::uint8_t>(key >> 16U), static_cast<std::uint8_t>(key >> 8U),
-          static_cast<std::uint8_t>(key)};
-}
 
 using Entry = ColorHistogram::Entry;
 
@@ -48,7 +36,7 @@ Box boxOf(const std::vector<Entry>& entries, std::size_t begin, std::size_t end)
       low = std::min<int>(low, entries[i].color[c]);
       high = std::max<int>(high, entries[i].color[c]);
     }
-    const int width = (high - low) * kWeights[c];
+    const int width = (high - low) * kEyeWeights[c];
     if (width <= widest) continue;
     widest = width;
     box.channel = c;
@@ -103,29 +91,43 @@ std::vector<GifColor> medianCut(std::vector<Entry> entries, std::size_t colors) 
 void ColorHistogram::add(std::span<const std::uint8_t> rgba) {
   // Runs of one colour are counted at once.
   for (std::size_t i = 0; i + 4 <= rgba.size();) {
-    const std::uint32_t key = keyOf(&rgba[i]);
+    const std::uint32_t key = keyOfColor(&rgba[i]);
     const std::uint8_t alpha = rgba[i + 3];
     std::uint64_t run = 0;
     do {
       ++run;
       i += 4;
-    } while (i + 4 <= rgba.size() && keyOf(&rgba[i]) == key && rgba[i + 3] == alpha);
-    if (alpha == 255) counts_[key & mask_] += run;
-    if (counts_.size() > kMostCounted) merge();
+    } while (i + 4 <= rgba.size() && keyOfColor(&rgba[i]) == key && rgba[i + 3] == alpha);
+    if (alpha == 255) groups_[key & mask_].add(key, run, run);
+    if (groups_.size() > kMostCounted) merge();
+  }
+}
+
+void ColorHistogram::Group::add(std::uint32_t added, std::uint64_t addedCount, std::uint64_t all) {
+  count += all;
+  if (added == color) {
+    colorCount += addedCount;
+  } else if (addedCount > colorCount) {
+    color = added;
+    colorCount = addedCount;
   }
 }
 
 void ColorHistogram::merge() {
   mask_ = (mask_ << 1U) & mask_ & 0xFEFEFEU; // one bit less a channel
-  std::unordered_map<std::uint32_t, std::uint64_t> merged;
-  for (const auto& [key, count] : counts_) merged[key & mask_] += count;
-  counts_ = std::move(merged);
+  ColorTable<Group> merged;
+  groups_.forEach([&](std::uint32_t key, const Group& group) {
+    merged[key & mask_].add(group.color, group.colorCount, group.count);
+  });
+  groups_ = std::move(merged);
 }
 
 std::vector<Entry> ColorHistogram::entries() const {
   std::vector<Entry> entries;
-  entries.reserve(counts_.size());
-  for (const auto& [key, count] : counts_) entries.push_back({colorOf(key), count});
+  entries.reserve(groups_.size());
+  groups_.forEach([&](std::uint32_t /*key*/, const Group& group) {
+    entries.push_back({colorOfKey(group.color), group.count});
+  });
   std::ranges::sort(entries, {}, &Entry::color);
   return entries;
 }
@@ -148,54 +150,6 @@ std::vector<GifColor> makePalette(const ColorHistogram& histogram) {
   const std::vector<GifColor> others = medianCut(std::move(entries), kMostColors - exact);
   palette.insert(palette.end(), others.begin(), others.end());
   return palette;
-}
-
-std::uint8_t PaletteDither::nearest(const std::array<int, 3>& color) const {
-  int best = std::numeric_limits<int>::max();
-  std::size_t index = 0;
-  for (std::size_t i = 0; i < palette_.size(); ++i) {
-    int distance = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const int difference = color[c] - palette_[i][c];
-      distance += kWeights[c] * difference * difference;
-    }
-    if (distance < best) {
-      best = distance;
-      index = i;
-    }
-  }
-  return static_cast<std::uint8_t>(index);
-}
-
-PaletteDither::Plan PaletteDither::plan(const GifColor& color) const {
-  // Colours whose mean comes close to the wanted one: each makes good for what those before it have missed.
-  Plan plan{};
-  std::array<int, 3> missed{};
-  for (std::uint8_t& entry : plan) {
-    std::array<int, 3> wanted{};
-    for (std::size_t c = 0; c < 3; ++c) wanted[c] = std::clamp(color[c] + missed[c], 0, 255);
-    entry = nearest(wanted);
-    for (std::size_t c = 0; c < 3; ++c) missed[c] += color[c] - palette_[entry][c];
-  }
-  const auto brightness = [this](std::uint8_t index) {
-    const GifColor& c = palette_[index];
-    return c[0] * kWeights[0] + c[1] * kWeights[1] + c[2] * kWeights[2];
-  };
-  std::ranges::stable_sort(plan, {}, brightness);
-  return plan;
-}
-
-std::uint8_t PaletteDither::index(const std::uint8_t* rgb, int x, int y) {
-  /// Bayer's matrix of order 4: neighbours differ as much as they can.
-  static constexpr std::array<std::uint8_t, 16> kThresholds{0, 8,  2, 10, 12, 4, 14, 6,
-                                                            3, 11, 1, 9,  15, 7, 13, 5};
-  const std::uint32_t key = keyOf(rgb);
-  auto entry = plans_.find(key);
-  if (entry == plans_.end()) {
-    if (plans_.size() > kMostPlans) plans_.clear();
-    entry = plans_.emplace(key, plan(colorOf(key))).first;
-  }
-  return entry->second[kThresholds[static_cast<std::size_t>(y % kSide * kSide + x % kSide)]];
 }
 
 } // namespace offstage

@@ -1,16 +1,27 @@
 #pragma once
 
+#include "render/output/color_table.h"
+
 #include <array>
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 namespace offstage {
 
 using GifColor = std::array<std::uint8_t, 3>; ///< red, green, blue
 
-/// Counts the colours of a clip. Beyond 131072 different ones, similar ones are counted together.
+/// A colour as a number whose order is that of red, then green, then blue.
+inline std::uint32_t keyOfColor(const std::uint8_t* rgb) {
+  return static_cast<std::uint32_t>(rgb[0]) << 16U | static_cast<std::uint32_t>(rgb[1]) << 8U | rgb[2];
+}
+inline GifColor colorOfKey(std::uint32_t key) {
+  return {static_cast<std::uint8_t>(key >> 16U), static_cast<std::uint8_t>(key >> 8U),
+          static_cast<std::uint8_t>(key)};
+}
+
+/// Counts the colours of a clip. Beyond 131072 different ones, similar ones are counted together, under the
+/// one that is most frequent among them: a background keeps its colour.
 class ColorHistogram {
 public:
   /// Opaque pixels only: a transparent one stands for no change.
@@ -22,8 +33,15 @@ public:
   [[nodiscard]] std::vector<Entry> entries() const; ///< in the order of the colours' values
 
 private:
+  /// Colours that are counted together.
+  struct Group {
+    std::uint64_t count = 0;
+    std::uint32_t color = 0;      ///< the most frequent
+    std::uint64_t colorCount = 0; ///< its own count, or since it became that
+    void add(std::uint32_t color, std::uint64_t colorCount, std::uint64_t count);
+  };
   void merge();
-  std::unordered_map<std::uint32_t, std::uint64_t> counts_;
+  ColorTable<Group> groups_;
   std::uint32_t mask_ = 0xFFFFFFU;
 };
 
@@ -31,24 +49,5 @@ private:
 /// whole areas are kept exactly, so that flat areas stay flat, and the others are gathered by median cut (P.
 /// Heckbert, Color image quantization for frame buffer display, SIGGRAPH 1982).
 std::vector<GifColor> makePalette(const ColorHistogram& histogram);
-
-/// Finds a palette's index for a pixel by position: ordered dithering between the palette's own colours (the
-/// idea of T. Knoll's pattern dithering, US patent 6606166, expired). The result depends on the colour and
-/// the place only, so what stands still in the clip stands still in the picture, and a colour of the palette
-/// is itself.
-class PaletteDither {
-public:
-  explicit PaletteDither(std::vector<GifColor> palette) : palette_(std::move(palette)) {}
-  std::uint8_t index(const std::uint8_t* rgb, int x, int y);
-
-private:
-  static constexpr int kSide = 4; ///< px of the pattern
-  using Plan = std::array<std::uint8_t, kSide * kSide>;
-  Plan plan(const GifColor& color) const;
-  [[nodiscard]] std::uint8_t nearest(const std::array<int, 3>& color) const;
-
-  std::vector<GifColor> palette_;
-  std::unordered_map<std::uint32_t, Plan> plans_;
-};
 
 } // namespace offstage

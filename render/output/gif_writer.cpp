@@ -14,6 +14,17 @@ constexpr int kMostCodeBits = 12;
 constexpr int kMostCodes = 1 << kMostCodeBits;
 constexpr std::size_t kMostBlock = 255;
 
+// A string is a code and the index that follows it, 20 bits, and a slot of the table holds them above the
+// code of that longer string, which is never 0. The table stays in the processor's nearest cache, and half of
+// it empty.
+constexpr std::size_t kSlots = 8192;
+constexpr std::uint32_t kCodeMask = kMostCodes - 1;
+
+std::size_t slotOf(std::uint32_t string) {
+  // Multiplicative hashing by 2^32 over the golden ratio (D. Knuth, The Art of Computer Programming 3, 6.4).
+  return (string * 2654435769U) >> 19U;
+}
+
 void append16(std::vector<std::uint8_t>& bytes, int value) {
   bytes.push_back(static_cast<std::uint8_t>(value));
   bytes.push_back(static_cast<std::uint8_t>(value >> 8));
@@ -41,7 +52,7 @@ private:
 } // namespace
 
 GifWriter::GifWriter(AtomicFile& file, int width, int height, const std::vector<GifColor>& palette)
-    : file_(file), longer_(static_cast<std::size_t>(kMostCodes) << kIndexBits) {
+    : file_(file), longer_(kSlots) {
   std::vector<std::uint8_t> head{'G', 'I', 'F', '8', '9', 'a'};
   append16(head, width);
   append16(head, height);
@@ -81,16 +92,18 @@ void GifWriter::putCompressed(std::span<const std::uint8_t> indices) {
   int next = kEnd + 1;
   const auto clear = [&] {
     bits.add(kClear, codeBits);
-    std::ranges::fill(longer_, std::int16_t{-1});
+    std::ranges::fill(longer_, 0U);
     codeBits = kIndexBits + 1;
     next = kEnd + 1;
   };
   clear();
   int code = indices.front();
   for (const std::uint8_t index : indices.subspan(1)) {
-    std::int16_t& longer = longer_[static_cast<std::size_t>(code) << kIndexBits | index];
-    if (longer >= 0) {
-      code = longer;
+    const std::uint32_t string = static_cast<std::uint32_t>(code) << kIndexBits | index;
+    std::size_t slot = slotOf(string);
+    while (longer_[slot] != 0 && longer_[slot] >> kMostCodeBits != string) slot = (slot + 1) % kSlots;
+    if (longer_[slot] != 0) {
+      code = static_cast<int>(longer_[slot] & kCodeMask);
       continue;
     }
     bits.add(code, codeBits);
@@ -98,7 +111,7 @@ void GifWriter::putCompressed(std::span<const std::uint8_t> indices) {
       clear();
     } else {
       if (next == 1 << codeBits) ++codeBits; // the reader knows the new code only now
-      longer = static_cast<std::int16_t>(next++);
+      longer_[slot] = string << kMostCodeBits | static_cast<std::uint32_t>(next++);
     }
     code = index;
   }

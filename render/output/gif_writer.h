@@ -29,7 +29,7 @@ private:
 
   AtomicFile& file_;
   std::int64_t bytes_ = 0;
-  std::vector<std::int16_t> longer_; ///< by code and next index: the code of that longer string, −1 if none
+  std::vector<std::uint32_t> longer_; ///< a hash table of the strings that have a code (putCompressed)
 };
 
 } // namespace offstage

@@ -38,24 +38,33 @@ namespace {
 //   F, qcomp=0.4, crf 16.6   52 .99962    2041 .98764    12247 .95192    885 .99188*   * crf 16.7
 //   G                        52 .99962    2018 .98746    11676 .94861    889 .99217
 //   F, qcomp=0.2, crf 13.8   53 .99963    2004 .98725    11198 .94546    886 .99228
-//   the one below            53 .99961    2099 .98713    11512 .94707    908 .99199
-// A whole render with the one below, one worker, takes 9.4 s of CPU at N = 1000 (300 frames) and 5.0 s at
+//   H                        53 .99961    2099 .98713    11512 .94707    908 .99199
+// Weights of P-frames, for fades: CPU seconds (medians of four in turns, ffmpeg on ready frames), KiB and
+// SSIM of 60 frames (N = 10000: 30), of the first second of scenes/fade.toml at twice its size, and of the
+// first two of lecture_collision.toml, which fades in:
+//                              H             weightp=1          weightp=2       veryfast, crf 20
+//   N = 10             0.54   53 .99961   0.54   53 .99961   0.54   53 .99961
+//   N = 1000           1.34 2099 .98713   1.33 2099 .98713   1.33 2099 .98713
+//   N = 10000          1.51 5804 .94727   1.49 5804 .94727   1.47 5804 .94727
+//   fade               0.53   88 .99982   0.52   63 .99974   0.52   63 .99974        45 .99974
+//   lecture_collision  0.47  121 .99890   0.47   45 .99748   0.47   45 .99748        30 .99800
+// A whole render with H, one worker, takes 9.4 s of CPU at N = 1000 (300 frames) and 5.0 s at
 // 10000 (60), with G 9.7 s and 5.3 s: medians of three.
 //
 // A: subme=1 b-adapt=0, crf 18. B: A with rc-lookahead=20 bframes=4 weightp=0 direct=temporal, crf 20. C:
 // B with rc-lookahead=5 bframes=2 b-pyramid=none qcomp=0.65, crf 20.2. D: C with dct-decimate=0 qcomp=0.5,
 // crf 18. E: D with me=dia merange=8. F: E without 8x8 intra blocks, whose prediction blurs small circles
-// (without any 8x8 transform the profile would be Main), crf 18.1. G: F with qcomp=0.3, crf 15.2. The one
-// below: G with P macroblocks whole, qcomp=0.25, crf 14.6. Where bodies move on, the temporal prediction of
-// B-frames is exact; weights, which help with fades, cost time. x264 drops blocks that have few small
-// coefficients (decimation); in flat graphics those are the edges. A low qcomp spends less where much moves.
-// Every frame of lookahead takes 6 MB at this size and the pyramid 30 MB, so B takes 330 MB a worker and this
-// one 200. To look for scene cuts takes 6 % of the time at N = 1000, and a chunk begins with a key frame
-// anyway; a macroblock that nothing predicts is coded for itself all the same. Psychovisual optimisation does
-// nothing below subme 6. cpu-independent: else x264 chooses some algorithms by the processor, and the bytes
-// with them.
+// (without any 8x8 transform the profile would be Main), crf 18.1. G: F with qcomp=0.3, crf 15.2. H: G with
+// P macroblocks whole, qcomp=0.25, crf 14.6. The one below: H with weightp=1 and without looking for scene
+// cuts, which takes 6 % of the time at N = 1000: a chunk begins with a key frame anyway, and a macroblock
+// that nothing predicts is coded for itself all the same. Where bodies move on, the temporal prediction of
+// B-frames is exact. x264 drops blocks that have few small coefficients (decimation); in flat graphics those
+// are the edges. A low qcomp spends less where much moves. Every frame of lookahead takes 6 MB at this size
+// and the pyramid 30 MB, so B takes 330 MB a worker and this one 200. Psychovisual optimisation does nothing
+// below subme 6. cpu-independent: else x264 chooses some algorithms by the processor, and the bytes with
+// them.
 constexpr const char* kX264Fast =
-    "subme=1:b-adapt=0:bframes=2:b-pyramid=none:weightp=0:direct=temporal:"
+    "subme=1:b-adapt=0:bframes=2:b-pyramid=none:weightp=1:direct=temporal:"
     "dct-decimate=0:rc-lookahead=5:scenecut=0:qcomp=0.25:me=dia:merange=8:partitions=b8x8,i4x4:"
     "cpu-independent=1";
 
@@ -70,9 +79,9 @@ constexpr const char* kX264Fast =
 //   shapes             0.52  78 .98680      0.45  92 .99575      0.86 124 .99793      1.30 154 .99846
 //   pile               1.14 357 .98857      1.68 593 .99691      3.03 870 .99919      4.43 721 .99926
 //   lecture_collision  3.07 123 .99736      4.13 306 .99930      5.26 166 .99957      6.97 143 .99979
-// lecture_collision fades in at first, where high, which has weights, needs less than good. draft looks at
-// nothing ahead and no further than whole pixels; high has 5 frames of lookahead instead of 40, 2 references
-// instead of 3 and no pyramid, so that a worker takes 130 MB at 1920 × 1080 instead of 425.
+// lecture_collision fades in at first, and good had no weights then. draft looks at nothing ahead and no
+// further than whole pixels; high has 5 frames of lookahead instead of 40, 2 references instead of 3 and no
+// pyramid, so that a worker takes 130 MB at 1920 × 1080 instead of 425.
 constexpr const char* kX264Draft =
     "subme=0:b-adapt=0:bframes=2:b-pyramid=none:weightp=0:direct=temporal:dct-decimate=0:rc-lookahead=0:"
     "scenecut=0:qcomp=0.25:me=dia:merange=8:partitions=b8x8,i4x4:cpu-independent=1";
@@ -80,15 +89,15 @@ constexpr const char* kX264High =
     "b-adapt=0:bframes=2:b-pyramid=none:ref=2:dct-decimate=0:rc-lookahead=5:cpu-independent=1";
 
 const std::vector<CodecTraits> kCodecs{
-    {VideoCodec::H264, "libx264", ".mp4 .mkv .mov", "libavcodec59", "H.264", false, true, 16384, "h264",
+    {VideoCodec::H264, "libx264", ".mp4 .mkv .mov", "libavcodec59", "H.264", false, true, 1, 16384, "h264",
      "High", AV_PIX_FMT_YUV420P, AV_PIX_FMT_NONE, AV_PIX_FMT_YUV420P},
-    {VideoCodec::H264Rgb, "libx264rgb", "lossless .mkv", "libavcodec59", "lossless H.264", true, false, 16384,
-     "h264", "High 4:4:4 Predictive", AV_PIX_FMT_BGR0, AV_PIX_FMT_NONE, AV_PIX_FMT_GBRP},
-    {VideoCodec::Vp9, "libvpx-vp9", ".webm", "libavcodec59", "VP9", false, true, 16384, "vp9", "Profile 0",
+    {VideoCodec::H264Rgb, "libx264rgb", "lossless .mkv", "libavcodec59", "lossless H.264", true, false, 1,
+     16384, "h264", "High 4:4:4 Predictive", AV_PIX_FMT_BGR0, AV_PIX_FMT_NONE, AV_PIX_FMT_GBRP},
+    {VideoCodec::Vp9, "libvpx-vp9", ".webm", "libavcodec59", "VP9", false, true, 1, 16384, "vp9", "Profile 0",
      AV_PIX_FMT_YUV420P, AV_PIX_FMT_YUVA420P, AV_PIX_FMT_YUV420P},
-    {VideoCodec::ProRes, "prores_ks", "transparent .mov", "libavcodec59", "ProRes 4444", false, false, 16384,
-     "prores", "4444", AV_PIX_FMT_NONE, AV_PIX_FMT_YUVA444P10, AV_PIX_FMT_YUVA444P12},
-    {VideoCodec::Ffv1, "ffv1", "transparent lossless .mkv", "libavcodec59", "FFV1", true, false, 16384,
+    {VideoCodec::ProRes, "prores_ks", "transparent .mov", "libavcodec59", "ProRes 4444", false, false, 1,
+     16384, "prores", "4444", AV_PIX_FMT_NONE, AV_PIX_FMT_YUVA444P10, AV_PIX_FMT_YUVA444P12},
+    {VideoCodec::Ffv1, "ffv1", "transparent lossless .mkv", "libavcodec59", "FFV1", true, false, 3, 16384,
      "ffv1", nullptr, AV_PIX_FMT_NONE, AV_PIX_FMT_BGRA, AV_PIX_FMT_BGRA},
 };
 
@@ -119,9 +128,10 @@ OptionList h264Options(Quality quality) {
 OptionList vp9Options(Quality quality) {
   // Constant quality (crf with b=0). Threads and tiles would change the bytes with the machine. In one pass
   // the encoder makes nothing of frames ahead: with 16 of them SSIM and size were the same in all digits
-  // shown
-  // (.999477, 484 KB for a second of bouncing balls; .999668, 94 KB for two of plots), and 74 MB more were
-  // taken at 1920 × 1080. Its alternate reference frames need them, and do not go with transparency.
+  // shown (.999477, 484 KB for a second of bouncing balls; .999668, 94 KB for two of plots), and 74 MB more
+  // were taken at 1920 × 1080. Its alternate reference frames need them, and do not go with transparency.
+  // What it takes of memory beyond that no setting changes; src/app/memset.cpp keeps most of it from being
+  // taken.
   OptionList options{{"b", "0"},         {"row-mt", "0"},        {"tile-columns", "0"},
                      {"tile-rows", "0"}, {"lag-in-frames", "0"}, {"auto-alt-ref", "0"}};
   const auto set = [&options](const char* deadline, const char* speed, const char* crf) {

@@ -31,6 +31,7 @@ struct CodecTraits {
   const char* title;    ///< for messages
   bool rgb;             ///< keeps RGB; else BT.709 in limited range
   bool subsampled;      ///< 4:2:0: odd sizes are padded to even
+  int leastSide;        ///< px; of FFV1, smaller ones come back from FFmpeg as other pixels, or not at all
   int mostSide;         ///< px
   const char* decoded;  ///< FFmpeg's name of the codec of a finished file
   const char* profile;  ///< FFmpeg's name, of a finished file; null: not compared

@@ -6,6 +6,7 @@
 #include "render/output/frame_check.h"
 #include "render/output/packet_hash.h"
 #include "render/output/packet_record.h"
+#include "render/output/picture_limit.h"
 #include "render/output/verify.h"
 #include "render/output/verify_tracks.h"
 #include "render/output/yuv.h"
@@ -30,6 +31,9 @@ constexpr double kLeastFps = 0.001;
 constexpr double kMostFps = 1000000.0;
 /// The longest that .mp4 can show a frame is 2^31 − 1 ticks, 2147 s at a microsecond.
 constexpr std::int64_t kMostTicks = 2147483647;
+/// The largest pictures that a level promises a player for: 6.2 of H.264 (139264 macroblocks, ITU-T H.264,
+/// table A-1) and 6.2 of VP9 alike.
+constexpr std::int64_t kMostLevelPixels = 35651584;
 
 /// A constant rate as a fraction; 0/1 when the rate is variable.
 AVRational frameRateOf(double fps) {
@@ -49,11 +53,12 @@ EncoderSettings settingsOf(const std::filesystem::path& path, Container containe
   settings.width = format.width;
   settings.height = format.height;
   const CodecTraits& traits = traitsOf(settings.codec);
-  if (format.width > traits.mostSide || format.height > traits.mostSide) {
+  if (format.width < traits.leastSide || format.height < traits.leastSide)
     throw Error(ExitCode::BadInput,
-                fmt::format("{}: {} holds pictures of at most {} px a side, not {} × {}", quoted(path),
-                            traits.title, traits.mostSide, format.width, format.height));
-  }
+                fmt::format("{}: {} holds at least {} px a side, not {} × {}; use .apng or a PNG sequence "
+                            "(frames/%06d.png)",
+                            quoted(path), traits.title, traits.leastSide, format.width, format.height));
+  requireCodedSize(path, traits.title, traits.mostSide, format.width, format.height);
   requireEncoder(settings.codec);
   const AVRational rate = frameRateOf(format.fps);
   if (rate.num == 0) {
@@ -153,6 +158,11 @@ std::string VideoOutput::notice() const {
   };
   add("width", format_.width, "column");
   add("height", format_.height, "row");
+  if (static_cast<std::int64_t>(format_.width) * format_.height > kMostLevelPixels) {
+    if (!text.empty()) text += '\n';
+    text += fmt::format("{} × {} px are more than the largest level of {} has: many players will not show it",
+                        format_.width, format_.height, traitsOf(settings_.codec).title);
+  }
   return text;
 }
 
