@@ -94,6 +94,7 @@ void PixelDeflater::addRow(const std::uint8_t* row, const std::uint8_t* rgba, bo
 }
 
 std::size_t PixelDeflater::compress(std::span<const std::uint8_t> rows, const std::uint8_t* rgba,
+                                    const std::function<void(std::size_t row)>& prepare,
                                     std::span<std::uint8_t> to) {
   if (to.size() < kZlibHead + kZlibTail + kSlack) return 0;
   to[0] = kZlibMethod;
@@ -104,7 +105,9 @@ std::size_t PixelDeflater::compress(std::span<const std::uint8_t> rows, const st
   BitWriter out(to.data() + kZlibHead);
   const std::uint8_t* written = rows.data();
   literalPixels_ = 0;
+  std::uint32_t checksum = libdeflate_adler32(0, nullptr, 0);
   for (std::size_t y = 0; y < count; ++y) {
+    prepare(y);
     const std::uint8_t* row = rows.data() + y * rowBytes_;
     const std::uint8_t* const pixels = rgba + y * width_ * kRgbaBytes;
     const bool above = reachesAbove_ && y > 0;
@@ -113,6 +116,7 @@ std::size_t PixelDeflater::compress(std::span<const std::uint8_t> rows, const st
     } else {
       addRow<4>(row, pixels, above);
     }
+    checksum = libdeflate_adler32(checksum, row, rowBytes_);
     const bool last = y + 1 == count;
     if (!last && !block_.full()) continue;
     block_.close();
@@ -124,7 +128,7 @@ std::size_t PixelDeflater::compress(std::span<const std::uint8_t> rows, const st
     written = block_.write(written, last, out);
   }
   const std::size_t size = kZlibHead + out.finish();
-  storeBigEndian(to.data() + size, libdeflate_adler32(1, rows.data(), rows.size()));
+  storeBigEndian(to.data() + size, checksum);
   return size + kZlibTail;
 }
 

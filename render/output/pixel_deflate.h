@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 
 namespace offstage {
@@ -22,9 +23,11 @@ public:
   /// Writes the stream of whole rows to `to` and returns its size. 0 when the picture is not flat (of more
   /// than a quarter of its pixels neither neighbour is a repetition), or when the stream might not fit; what
   /// `to` holds then means nothing. `rgba`: the same pixels, 4 bytes each and nothing between rows, which are
-  /// quicker to compare; without alpha (3 channels) its fourth bytes do not matter.
+  /// quicker to compare; without alpha (3 channels) its fourth bytes do not matter. `prepare` is called with
+  /// the number of each row before that is read, from the first on: what it writes there is still in the
+  /// cache.
   std::size_t compress(std::span<const std::uint8_t> rows, const std::uint8_t* rgba,
-                       std::span<std::uint8_t> to);
+                       const std::function<void(std::size_t row)>& prepare, std::span<std::uint8_t> to);
 
 private:
   /// `rgba`: the row's pixels, those of the row above in front of them.

@@ -97,21 +97,20 @@ struct PngEncoder::Compressor {
 PngEncoder::PngEncoder() = default;
 PngEncoder::~PngEncoder() = default;
 
-void PngEncoder::pack(const Frame& frame, bool alpha) {
-  const PixelRect whole{0, 0, frame.width, frame.height};
+bool PngEncoder::update(const Frame& frame, bool alpha) {
   const auto height = static_cast<std::size_t>(frame.height);
   const std::size_t rowBytes = 1 + static_cast<std::size_t>(frame.width) * (alpha ? 4 : 3);
   const bool kept = alpha == packedAlpha_ && rows_.size() == height * rowBytes;
-  if (kept && frame.id != 0 && frame.id == packed_) return;
-  if (kept && frame.base != 0 && frame.base == packed_) {
+  if (kept && frame.id != 0 && frame.id == packed_) return true;
+  const bool known = kept && frame.base != 0 && frame.base == packed_;
+  if (known) {
     for (const PixelRect& rect : frame.damage) pack(frame, alpha, rect);
   } else {
     rows_.resize(height * rowBytes);
     for (std::size_t row = 0; row < height; ++row) rows_[row * rowBytes] = kFilterNone;
-    pack(frame, alpha, whole);
   }
-  packed_ = frame.id;
   packedAlpha_ = alpha;
+  return known;
 }
 
 void PngEncoder::pack(const Frame& frame, bool alpha, const PixelRect& rect) {
@@ -130,16 +129,21 @@ void PngEncoder::pack(const Frame& frame, bool alpha, const PixelRect& rect) {
   }
 }
 
-std::size_t PngEncoder::compress(const Frame& frame, bool alpha, std::size_t at) {
+std::size_t PngEncoder::compress(const Frame& frame, bool alpha, bool there, std::size_t at) {
   if (!flat_ || flatWidth_ != frame.width || flatAlpha_ != alpha) {
     flat_.emplace(static_cast<std::size_t>(frame.width), alpha ? 4 : 3);
     flatWidth_ = frame.width;
     flatAlpha_ = alpha;
   }
+  const auto packRow = [&](std::size_t row) {
+    const int top = static_cast<int>(row);
+    if (!there) pack(frame, alpha, {0, top, frame.width, top + 1});
+  };
   // The room depends on the picture alone, since it decides who compresses it.
   const std::span<std::uint8_t> room = std::span(file_).subspan(at, roomForFlat(rows_.size()));
-  const std::size_t size = flat_->compress(rows_, frame.rgba.data(), room);
+  const std::size_t size = flat_->compress(rows_, frame.rgba.data(), packRow, room);
   if (size > 0) return size;
+  if (!there) pack(frame, alpha, {0, 0, frame.width, frame.height}); // not all rows may have been asked for
   if (!compressor_) compressor_ = std::make_unique<Compressor>();
   const std::size_t bound = libdeflate_zlib_compress_bound(compressor_->handle, rows_.size());
   file_.resize(std::max(file_.size(), at + bound + kMostTail));
@@ -151,7 +155,7 @@ std::span<const std::uint8_t> PngEncoder::encode(const Frame& frame, bool alpha,
   requireWholeFrame(frame);
   if (dotsPerMetre < 0) throw Error(ExitCode::BadInput, "a PNG's resolution must not be negative");
 
-  pack(frame, alpha);
+  const bool there = update(frame, alpha);
   if (rows_.size() > kMostRows)
     throw Error(ExitCode::BadInput, "the picture is too large for a PNG of one IDAT chunk (2 GiB)");
   file_.resize(std::max(file_.size(), kMostOverhead + roomForFlat(rows_.size())));
@@ -176,7 +180,9 @@ std::span<const std::uint8_t> PngEncoder::encode(const Frame& frame, bool alpha,
     chunks.close("pHYs", 9);
   }
 
-  const std::size_t size = compress(frame, alpha, chunks.size() + kChunkHead);
+  packed_ = 0; // until all of it is
+  const std::size_t size = compress(frame, alpha, there, chunks.size() + kChunkHead);
+  packed_ = frame.id;
   chunks.moveTo(file_.data()); // which may be elsewhere now
   chunks.close("IDAT", size);
   chunks.close("IEND", 0);

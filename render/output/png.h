@@ -29,11 +29,12 @@ public:
 
 private:
   struct Compressor;
-  /// Puts the frame into rows_: only its damage when they still hold its base.
-  void pack(const Frame& frame, bool alpha);
+  /// Gives rows_ the frame's size, and puts its damage there when they hold its base. Whether they hold the
+  /// frame then; else all of it has to be packed.
+  bool update(const Frame& frame, bool alpha);
   void pack(const Frame& frame, bool alpha, const PixelRect& rect);
-  /// Compresses rows_, which hold the frame, to file_ from `at` on; returns the size.
-  std::size_t compress(const Frame& frame, bool alpha, std::size_t at);
+  /// Compresses rows_ to file_ from `at` on; returns the size. Packs the frame before, unless it is `there`.
+  std::size_t compress(const Frame& frame, bool alpha, bool there, std::size_t at);
 
   std::optional<PixelDeflater> flat_; ///< for pictures of these:
   int flatWidth_ = 0;
