@@ -72,13 +72,14 @@ TEST_F(Formula, IsKeptInTheCacheAndThenNeedsNoTex) {
 
 TEST_F(Formula, ADamagedCacheEntryIsMadeAnew) {
   const Mask first = typeset("x", 30.0, cache());
-  for (const auto& entry : std::filesystem::directory_iterator(folder() / "cache")) {
-    const std::string whole = readFile(entry.path());
-    for (const std::size_t length : {std::size_t{0}, std::size_t{10}, whole.size() / 2, whole.size() - 1}) {
-      writeFile(entry.path(), whole.substr(0, length));
-      EXPECT_EQ(typeset("x", 30.0, cache()).coverage, first.coverage) << length << " bytes";
-      EXPECT_EQ(readFile(entry.path()), whole);
-    }
+  const std::vector<std::string> entries = folder().names("cache");
+  ASSERT_EQ(entries.size(), 1U);
+  const std::filesystem::path entry = folder() / "cache" / entries.front();
+  const std::string whole = readFile(entry);
+  for (const std::size_t length : {std::size_t{0}, std::size_t{10}, whole.size() / 2, whole.size() - 1}) {
+    writeFile(entry, whole.substr(0, length));
+    EXPECT_EQ(typeset("x", 30.0, cache()).coverage, first.coverage) << length << " bytes";
+    EXPECT_EQ(readFile(entry), whole);
   }
 }
 

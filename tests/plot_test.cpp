@@ -209,6 +209,10 @@ TEST(Plot, TellsWhatIsWrong) {
           HasSubstr("scene.toml:16:8: error: 'area' in [[plot]] must be at least 40 px"),
           HasSubstr("scene.toml:17:1: error: [[plot]] needs 'y'"),
           HasSubstr("scene.toml:22:5: error: 'x' in [[plot]] must be one value or as many")));
+  EXPECT_THAT(
+      errorsOf("[frame]\nsize = [640, 75]\n[[plot]]\ny = \"energy\"\n"),
+      ::testing::ElementsAre("scene.toml:3:1: error: [[plot]] needs an 'area' at least 40 px wide and "
+                             "high: by default it is 320x37.5 px"));
 }
 
 } // namespace

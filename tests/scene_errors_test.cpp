@@ -50,6 +50,26 @@ TEST(SceneErrors, BytesThatAreNoText) {
                   "characters other than TAB (U+0009) are explicitly prohibited"));
 }
 
+TEST(SceneErrors, HeadersThatBeginWithNoKey) {
+  const auto saw = [](const char* place, const char* what) {
+    return ElementsAre(std::string("scene.toml:") + place +
+                       ": error: not valid TOML: Error while parsing key: expected bare key starting "
+                       "character or string delimiter, saw '" +
+                       what + "'");
+  };
+  EXPECT_THAT(errorsOf("[+[spawn]]\n"), saw("1:2", "+"));
+  EXPECT_THAT(errorsOf("[[ =body]]\n"), saw("1:4", "="));
+  EXPECT_THAT(errorsOf("[\n"), saw("1:2", "\\n"));
+  EXPECT_THAT(errorsOf("[ Ж]\n"), saw("1:3", "Ж"));
+}
+
+TEST(SceneErrors, LettersBeyondAsciiAreNoWhiteSpace) {
+  EXPECT_EQ(test::sceneOf("title = \"\"\"\\\n  Übung \\\n  Жук\"\"\"\n").title, "Übung Жук");
+  EXPECT_THAT(errorsOf("title Ö = 1\n"),
+              ElementsAre("scene.toml:1:7: error: not valid TOML: Error while parsing key-value pair: "
+                          "expected '=', saw 'Ö'"));
+}
+
 std::string whatOf(const std::filesystem::path& file) {
   try {
     static_cast<void>(loadScene(file));

@@ -1,6 +1,8 @@
+#include "render/draw/image.h"
 #include "render/stage/include/offstage/testing.h"
 #include "tests/support/process.h"
 #include "tests/support/scene_names.h"
+#include "tests/support/temp_dir.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -37,6 +39,23 @@ TEST(SceneGolden, EveryScenePicturesItsGoldenPixelByPixel) {
     const double at = std::stod(golden.substr(golden.rfind('@') + 1));
     EXPECT_THAT(sceneFrame(scene(sceneOf(golden)), at), MatchesGolden(golden));
   }
+  setGoldenFolder("");
+  setGoldenOutFolder("");
+}
+
+TEST(SceneGolden, ManyMomentsInOnePictureAreTheirGolden) {
+  setGoldenFolder(OFFSTAGE_SOURCE_DIR "/tests/goldens/strobe");
+  setGoldenOutFolder(OFFSTAGE_BINARY_DIR "/golden_actual/strobe");
+  const TempDir dir;
+  const ProcessResult drawn =
+      offstage({"still", scene("projectiles"), "--at", "7", "--strobe", "21", "-o", dir / "x.png"});
+  ASSERT_EQ(drawn.status, 0) << drawn.err;
+  const Image picture = loadImage(dir / "x.png");
+  Frame frame;
+  frame.width = picture.width;
+  frame.height = picture.height;
+  frame.rgba = picture.rgba;
+  EXPECT_THAT(frame, MatchesGolden("projectiles@7s"));
   setGoldenFolder("");
   setGoldenOutFolder("");
 }

@@ -297,8 +297,8 @@ TEST(Font, OfTheUsersIsReadBesideTheSceneOrRefusedThere) {
   EXPECT_THAT(errorFor("./"), HasSubstr("which is no regular file"));
 }
 
-/// What reading and drawing a letter of these bytes ends with; never a crash.
-bool drawsOrIsRefused(const std::string& bytes) {
+/// Whether a font of these bytes draws its letters, and is not refused. It may do no third thing.
+bool draws(const std::string& bytes) {
   try {
     const Font font(std::vector<std::uint8_t>(bytes.begin(), bytes.end()));
     GlyphCache cache;
@@ -310,26 +310,32 @@ bool drawsOrIsRefused(const std::string& bytes) {
     }
     return true;
   } catch (const std::runtime_error&) {
-    return true;
+    return false;
   }
 }
 
 TEST(Font, ThatIsCutOffAnywhereIsDrawnOrRefused) {
   const std::string font = readFile(typefaceFile(Typeface::Mono));
-  for (std::size_t length = 0; length < font.size(); length += 1 + length / 8)
-    EXPECT_TRUE(drawsOrIsRefused(font.substr(0, length))) << length << " bytes";
+  EXPECT_TRUE(draws(font));
+  for (std::size_t length = 0; length < font.size(); length += 1 + length / 8) {
+    const bool drawn = draws(font.substr(0, length));
+    EXPECT_FALSE(drawn && length < 10000) << length << " bytes";
+  }
 }
 
 TEST(Font, WithWrongBytesIsDrawnOrRefused) {
   const std::string font = readFile(typefaceFile(Typeface::Mono));
   std::mt19937 random(3);
+  int drawn = 0;
   for (int round = 0; round < 150; ++round) {
     std::string damaged = font;
     // Half of the rounds hit the tables' directory and what stands first, where lengths and offsets are.
     const std::size_t reach = round % 2 == 0 ? std::size_t{2048} : damaged.size();
     for (int k = 0; k < 1 + round % 20; ++k) damaged[random() % reach] = static_cast<char>(random() & 0xffU);
-    EXPECT_TRUE(drawsOrIsRefused(damaged)) << "round " << round;
+    drawn += draws(damaged) ? 1 : 0;
   }
+  EXPECT_GT(drawn, 50) << "of 150";
+  EXPECT_LT(drawn, 150) << "of 150";
 }
 
 } // namespace

@@ -108,7 +108,9 @@ TEST(TraceCompare, BodiesThatStartTogetherGetTheirOwnPartnersNotTheirNeighbours)
   const Trace actual = rows("0,0,10,85,0,1\n0,0,11,109,0,1\n0,0,12,300,40,1\n");
   const auto a = traceBodies(expected);
   const auto b = traceBodies(actual);
-  for (const TracePair& pair : matchBodies(expected, a, actual, b, TraceMatch::Nearest)) {
+  const std::vector<TracePair> pairs = matchBodies(expected, a, actual, b, TraceMatch::Nearest);
+  ASSERT_EQ(pairs.size(), 3U);
+  for (const TracePair& pair : pairs) {
     ASSERT_TRUE(pair.expected && pair.actual);
     EXPECT_EQ(b[*pair.actual].id, a[*pair.expected].id + 10);
   }

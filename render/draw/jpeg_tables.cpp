@@ -31,8 +31,11 @@ bool segmentFits(std::span<const std::uint8_t> segment) {
 } // namespace
 
 bool jpegTablesFit(std::span<const std::uint8_t> file) {
-  if (file.size() < 2 || file[0] != 0xff || file[1] != kStartOfImage) return true;
-  for (std::size_t at = 2; at + 4 <= file.size();) {
+  if (file.empty() || file[0] != 0xff) return true;
+  // The decoder takes fill bytes before the first marker, too.
+  const auto first = std::ranges::find_if(file, [](std::uint8_t byte) { return byte != 0xff; });
+  if (first == file.end() || *first != kStartOfImage) return true;
+  for (auto at = static_cast<std::size_t>(first - file.begin()) + 1; at + 4 <= file.size();) {
     const std::uint8_t marker = file[at + 1];
     if (file[at] != 0xff || marker == 0xff) { // padding, or a fill byte
       ++at;

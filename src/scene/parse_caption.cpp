@@ -107,6 +107,7 @@ std::optional<std::size_t> readSectionName(SceneBuilder& builder, const TableRea
   const auto found = std::ranges::find(sections, *title, &Section::title);
   if (found != sections.end()) return static_cast<std::size_t>(found - sections.begin());
   std::vector<std::string_view> titles;
+  titles.reserve(sections.size());
   for (const Section& section : sections) titles.emplace_back(section.title);
   const std::string_view near = nearest(*title, titles);
   reader.reject("section",

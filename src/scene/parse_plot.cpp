@@ -151,8 +151,16 @@ Plot readPlot(const TableReader& reader, const Scene& scene, std::vector<NamedCu
     plot.x.range = {{0.0, std::max(scene.clock.duration(), 1e-9)}};
 
   plot.area = reader.givenNumbers<4>("area", Range::between(-kFarthest, kFarthest)).value_or(area);
-  if (!(plot.area[2] >= 40.0 && plot.area[3] >= 40.0))
-    reader.reject("area", "must be at least 40 px wide and high: [x, y, width, height]");
+  if (!(plot.area[2] >= 40.0 && plot.area[3] >= 40.0)) {
+    if (reader.has("area")) {
+      reader.reject("area", "must be at least 40 px wide and high: [x, y, width, height]");
+    } else {
+      reader.errors().add(
+          reader.value(),
+          fmt::format("{} needs an 'area' at least 40 px wide and high: by default it is {}x{} px",
+                      reader.label(), numberText(plot.area[2]), numberText(plot.area[3])));
+    }
+  }
   plot.title = reader.givenString("title").value_or("");
   plot.textSize = reader.givenNumber("text_size", Range::between(4.0, 1000.0))
                       .value_or(std::max(std::round(plot.area[3] / 16.0), 11.0));

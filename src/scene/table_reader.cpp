@@ -86,7 +86,8 @@ void TableReader::requireIfNeeded(std::string_view key) const {
 }
 
 void TableReader::reject(std::string_view key, std::string_view problem) const {
-  errors_.add(*find(key), fmt::format("{} {}", described(key), problem));
+  const TomlValue* given = find(key);
+  errors_.add(given != nullptr ? *given : value_, fmt::format("{} {}", described(key), problem));
 }
 
 bool TableReader::rejectBoth(std::string_view key, std::string_view other) const {

@@ -84,7 +84,8 @@ public:
 
   /// Reports that the key is missing; for keys whose need depends on others.
   void require(std::string_view key) const;
-  /// Reports `problem` at the key's value: "'size' in [[body]] " + problem.
+  /// Reports `problem` at the key's value, or at the table when its default is meant: "'size' in [[body]] " +
+  /// problem.
   void reject(std::string_view key, std::string_view problem) const;
   /// Reports when both keys are given. True when so.
   bool rejectBoth(std::string_view key, std::string_view other) const;

@@ -20,8 +20,10 @@ TimeMap::TimeMap(std::int64_t frames, const std::vector<Run>& runs) : end_(stati
 void TimeMap::append(std::int64_t count, double origin, std::int64_t numerator, std::int64_t denominator) {
   if (count <= 0) return;
   const std::int64_t common = std::gcd(numerator, denominator);
-  stretches_.push_back({frames_, count, 0, origin, static_cast<double>(numerator / common),
-                        static_cast<double>(denominator / common), kNoTag});
+  numerator /= common;
+  denominator /= common;
+  stretches_.push_back(
+      {frames_, count, 0, origin, static_cast<double>(numerator), static_cast<double>(denominator), kNoTag});
   frames_ += count;
 }
 
