@@ -258,7 +258,9 @@ constexpr const char* kOnGround = R"(
 vec4 onGround(vec4 color, float covered, vec3 ground) {
   precise vec4 premultiplied = color * covered; // rounded as where it is blended, not merged with the 255
   precise vec4 scaled = premultiplied * 255.0;
-  vec4 source = roundEven(scaled);
+  // From 2^23 on floats are whole numbers. roundEven() takes halves up where llvmpipe has no instruction for it.
+  precise vec4 lifted = scaled + 8388608.0;
+  precise vec4 source = lifted - 8388608.0;
   vec3 product = ground * (255.0 - source.a);
   vec3 kept = floor((product + floor(product * (1.0 / 256.0)) + 128.0) * (1.0 / 256.0));
   return vec4((source.rgb + kept) * (1.0 / 255.0), 1.0);
