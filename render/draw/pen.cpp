@@ -59,7 +59,7 @@ void Pen::dashes(const Vec2& from, const Vec2& to, double dash, double gap) {
   if (periods > kMostDashes) return line(from, to);
   const double step = whole / periods;
   const double half = 0.5 * std::min(dash, step);
-  for (double i = 0.0; i <= periods; i += 1.0) {
+  for (int i = 0; i <= static_cast<int>(periods); ++i) {
     const double first = std::max(i * step - half, 0.0) / whole;
     const double last = std::min(i * step + half, whole) / whole;
     line(from + along * first, from + along * last);

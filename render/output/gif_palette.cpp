@@ -52,6 +52,7 @@ GifColor meanOf(const std::vector<Entry>& entries, const Box& box) {
     for (std::size_t c = 0; c < 3; ++c) sum[c] += entries[i].color[c] * entries[i].count;
     count += entries[i].count;
   }
+  if (count == 0) return {};
   GifColor mean{};
   for (std::size_t c = 0; c < 3; ++c) mean[c] = static_cast<std::uint8_t>((sum[c] + count / 2) / count);
   return mean;
@@ -82,6 +83,7 @@ std::vector<GifColor> medianCut(std::vector<Entry> entries, std::size_t colors) 
     boxes.push_back(boxOf(entries, middle, box.end));
   }
   std::vector<GifColor> palette;
+  palette.reserve(boxes.size());
   for (const Box& box : boxes) palette.push_back(meanOf(entries, box));
   return palette;
 }

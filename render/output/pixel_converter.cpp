@@ -48,6 +48,7 @@ constexpr double kRed = 0.2126;
 constexpr double kBlue = 0.0722;
 constexpr double kGreen = 1.0 - kRed - kBlue;
 constexpr std::int32_t weight(double value) {
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings): of small positive numbers; std::lround is not constexpr
   return static_cast<std::int32_t>(value * (1 << kBits) / 255.0 + 0.5);
 }
 constexpr std::int32_t kYRed = weight(876.0 * kRed);

@@ -12,7 +12,8 @@ double extentOf(const Body& body) {
 std::size_t SizeLevels::octaveOf(double extent) {
   if (!(extent < 0x1p+63)) return kOctaves;
   if (extent < 0x1p-64) return 0;
-  return static_cast<std::size_t>(std::ilogb(extent) + 64);
+  const int octave = std::ilogb(extent) + 64;
+  return static_cast<std::size_t>(octave);
 }
 
 void SizeLevels::layOut() {
