@@ -46,6 +46,26 @@ TEST(PacketHash, OfOtherCodecsIsThatOfTheData) {
   EXPECT_NE(stored("a"), stored("b"));
 }
 
+TEST(PacketHash, TransparencyBesideAPacketCounts) {
+  const auto withBeside = [](std::string_view beside, AVPacketSideDataType type) {
+    const libav::Packet packet = packetOf("a");
+    std::uint8_t* const data = av_packet_new_side_data(packet.get(), type, beside.size());
+    if (data == nullptr) throw std::bad_alloc();
+    std::memcpy(data, beside.data(), beside.size());
+    PacketHash before;
+    PacketHash after;
+    before.addEncoded(*packet, VideoCodec::Vp9);
+    after.addStored(*packet);
+    EXPECT_EQ(before.value(), after.value()) << beside;
+    return after.value();
+  };
+  constexpr AVPacketSideDataType kBeside = AV_PKT_DATA_MATROSKA_BLOCKADDITIONAL;
+  EXPECT_NE(withBeside("alpha", kBeside), withBeside("alphb", kBeside));
+  EXPECT_NE(withBeside("alpha", kBeside), stored("a"));
+  // What an encoder only tells is not in the file.
+  EXPECT_EQ(withBeside("alpha", AV_PKT_DATA_QUALITY_STATS), stored("a"));
+}
+
 TEST(PacketHash, PacketsWithoutAnyUnitAreNothing) {
   for (const std::string_view data : {""sv, "\1"sv, "\0\1"sv, "\0\0"sv, "abc"sv})
     EXPECT_EQ(encoded(data, VideoCodec::H264), PacketHash().value()) << data.size();

@@ -33,6 +33,7 @@ std::size_t findStartCode(Bytes bytes, std::size_t from) {
 
 void PacketHash::addStored(const AVPacket& packet) {
   hash_.add(packet.data, static_cast<std::size_t>(packet.size));
+  addBeside(packet);
 }
 
 void PacketHash::addEncoded(const AVPacket& packet, VideoCodec codec) {
@@ -47,6 +48,13 @@ void PacketHash::addEncoded(const AVPacket& packet, VideoCodec codec) {
     std::size_t end = code;
     while (end > begin && bytes[end - 1] == 0) --end; // of a longer start code
     addUnit(bytes.subspan(begin, end - begin));
+  }
+}
+
+void PacketHash::addBeside(const AVPacket& packet) {
+  for (int i = 0; i < packet.side_data_elems; ++i) {
+    const AVPacketSideData& side = packet.side_data[i];
+    if (side.type == AV_PKT_DATA_MATROSKA_BLOCKADDITIONAL) hash_.add(side.data, side.size);
   }
 }
 

@@ -11,7 +11,7 @@ namespace offstage {
 
 /// A hash of a video's packets, in decoding order, that is the same before they are written to a file and
 /// when they are read from it: XXH3-64 of the data, of H.264 as containers store it, every unit behind its
-/// length (ISO/IEC 14496-15, 5.3).
+/// length (ISO/IEC 14496-15, 5.3), and of what .webm keeps beside them, the transparency.
 class PacketHash {
 public:
   /// A packet as a container has it.
@@ -23,6 +23,7 @@ public:
   [[nodiscard]] std::uint64_t value() const { return hash_.value(); }
 
 private:
+  void addBeside(const AVPacket& packet);
   void addUnit(std::span<const std::uint8_t> unit);
 
   StreamHash hash_;
