@@ -58,7 +58,7 @@ std::vector<std::optional<Paint>> readFills(SceneBuilder& builder, const TableRe
   const TomlValue* fill = reader.find("fill");
   if (const auto* text = std::get_if<std::string>(&fill->data)) {
     if (*text == "none") return {std::nullopt};
-    return {readColor(*fill, reader.described("fill"), builder.errors).value_or(Color{})};
+    return {readColor(*fill, {reader, "fill"}, builder.errors).value_or(Color{})};
   }
   if (fill->table() == nullptr) {
     reportMismatch(*fill, reader.described("fill"),

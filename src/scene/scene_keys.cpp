@@ -1,6 +1,8 @@
 #include "src/scene/scene_keys.h"
 
-#include <unordered_map>
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <vector>
 
 namespace offstage {
@@ -411,13 +413,39 @@ constexpr SceneKey kKeys[] = {
 };
 // clang-format on
 
-using KeysByName = std::unordered_map<std::string_view, std::vector<const SceneKey*>>;
+/// Names by their length and their ends: a scene of ten thousand bodies asks half a million times.
+class KeysByName {
+public:
+  KeysByName() {
+    for (const SceneKey& key : kKeys) {
+      std::vector<Named>& bucket = buckets_.at(bucketOf(key.key));
+      auto named = std::ranges::find(bucket, key.key, &Named::name);
+      if (named == bucket.end()) named = bucket.insert(named, Named{key.key, {}});
+      named->keys.push_back(&key);
+    }
+  }
 
-KeysByName keysByName() {
-  KeysByName keys;
-  for (const SceneKey& key : kKeys) keys[key.key].push_back(&key);
-  return keys;
-}
+  [[nodiscard]] std::span<const SceneKey* const> find(std::string_view name) const {
+    for (const Named& named : buckets_[bucketOf(name)])
+      if (named.name == name) return named.keys;
+    return {};
+  }
+
+private:
+  struct Named {
+    std::string_view name;
+    std::vector<const SceneKey*> keys;
+  };
+  static constexpr std::size_t kBuckets = 256;
+
+  static std::size_t bucketOf(std::string_view name) {
+    if (name.empty()) return 0;
+    const auto letter = [](char c) { return static_cast<std::size_t>(static_cast<unsigned char>(c)); };
+    return (name.size() * 29 + letter(name.front()) * 5 + letter(name.back())) % kBuckets;
+  }
+
+  std::array<std::vector<Named>, kBuckets> buckets_;
+};
 
 } // namespace
 
@@ -426,10 +454,8 @@ std::span<const SceneKey> sceneKeyTable() {
 }
 
 std::span<const SceneKey* const> sceneKeysNamed(std::string_view key) {
-  static const KeysByName kByName = keysByName();
-  const auto found = kByName.find(key);
-  if (found == kByName.end()) return {};
-  return found->second;
+  static const KeysByName kByName;
+  return kByName.find(key);
 }
 
 std::vector<SceneKey> sceneKeys() {

@@ -129,7 +129,7 @@ std::string TableReader::string(std::string_view key) const {
 
 Color TableReader::color(std::string_view key) const {
   if (const TomlValue* given = find(key)) {
-    if (const auto color = readColor(*given, described(key), errors_)) return *color;
+    if (const auto color = readColor(*given, {*this, key}, errors_)) return *color;
   }
   return parseColor(defaultString(key)).value_or(Color{});
 }
@@ -145,14 +145,14 @@ std::array<double, 2> TableReader::pair(std::string_view key, Range range) const
 std::optional<double> TableReader::givenNumber(std::string_view key, Range range) const {
   const TomlValue* given = find(key);
   if (given == nullptr) return std::nullopt;
-  return readNumber(*given, described(key), range, errors_);
+  return readNumber(*given, {*this, key}, range, errors_);
 }
 
 std::optional<std::int64_t> TableReader::givenInteger(std::string_view key, std::int64_t low,
                                                       std::int64_t high) const {
   const TomlValue* given = find(key);
   if (given == nullptr) return std::nullopt;
-  return readInteger(*given, described(key), low, high, errors_);
+  return readInteger(*given, {*this, key}, low, high, errors_);
 }
 
 std::optional<std::string> TableReader::givenString(std::string_view key) const {
@@ -172,7 +172,7 @@ std::optional<std::string> TableReader::givenString(std::string_view key) const 
 
 bool TableReader::readNumbers(std::string_view key, std::span<double> numbers, Range range) const {
   const TomlValue* given = find(key);
-  return given != nullptr && offstage::readNumbers(*given, described(key), numbers, range, errors_);
+  return given != nullptr && offstage::readNumbers(*given, {*this, key}, numbers, range, errors_);
 }
 
 std::optional<std::size_t> TableReader::readChoice(std::string_view key,

@@ -106,14 +106,31 @@ private:
   ErrorList& errors_;
 };
 
+/// How messages name a value. It is put into words only for a message: a scene of ten thousand bodies has
+/// hundred thousand values that nothing is wrong with. Refers to what it is made from.
+class ValueName {
+public:
+  ValueName(const std::string& text) : text_(text) {} // NOLINT(google-explicit-constructor): a name as it is
+  ValueName(const TableReader& table, std::string_view key) : table_(&table), text_(key) {}
+  /// "value 2 of …": an element of an array, counted from 0 here.
+  ValueName(std::size_t index, const ValueName& array) : array_(&array), index_(index) {}
+  [[nodiscard]] std::string text() const;
+
+private:
+  const TableReader* table_ = nullptr;
+  const ValueName* array_ = nullptr;
+  std::string_view text_; ///< the key, of a table
+  std::size_t index_ = 0;
+};
+
 // One value, wherever it stands. Each reports what is wrong with it as "`what` must be …, but it is …".
-std::optional<double> readNumber(const TomlValue& value, const std::string& what, Range range,
+std::optional<double> readNumber(const TomlValue& value, const ValueName& what, Range range,
                                  ErrorList& errors);
-std::optional<std::int64_t> readInteger(const TomlValue& value, const std::string& what, std::int64_t low,
+std::optional<std::int64_t> readInteger(const TomlValue& value, const ValueName& what, std::int64_t low,
                                         std::int64_t high, ErrorList& errors);
-std::optional<Color> readColor(const TomlValue& value, const std::string& what, ErrorList& errors);
+std::optional<Color> readColor(const TomlValue& value, const ValueName& what, ErrorList& errors);
 /// As many numbers as `numbers` has places; an array of another length is an error. True when all are right.
-bool readNumbers(const TomlValue& value, const std::string& what, std::span<double> numbers, Range range,
+bool readNumbers(const TomlValue& value, const ValueName& what, std::span<double> numbers, Range range,
                  ErrorList& errors);
 /// "`what` must be `wanted`, but it is …".
 void reportMismatch(const TomlValue& value, const std::string& what, std::string_view wanted,
