@@ -32,8 +32,9 @@ constexpr std::chrono::milliseconds kClaimsWatch{5};
 /// s: what a worker's start takes: its GL context and shaders, and fresh memory for the encoder (measured at
 /// 1080p with x264).
 constexpr double kWorkerStart = 0.1;
-/// Bytes from which on a worker's memory comes from the system, and goes back to it.
-constexpr int kLargeBlock = 1 << 20;
+/// Bytes from which on a worker's memory comes from the system, and goes back to it: glibc's own threshold,
+/// which it would raise with every block that is freed.
+constexpr int kLargeBlock = 1 << 17;
 
 /// A pipe whose writing end every process of a round holds: its reading end ends when all of them have.
 class LifeLine {
