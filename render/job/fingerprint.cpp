@@ -6,7 +6,6 @@
 #include <bit>
 #include <cstddef>
 #include <fstream>
-#include <string>
 
 namespace offstage {
 
@@ -28,12 +27,13 @@ void Fingerprint::add(const Clock& clock) {
 
 void Fingerprint::addFile(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  std::string text;
+  std::int64_t size = 0;
   std::array<char, 1U << 16U> block; // NOLINT(cppcoreguidelines-pro-type-member-init)
   while (stream.read(block.data(), block.size()), stream.gcount() > 0) {
-    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+    hash_.add(block.data(), static_cast<std::size_t>(stream.gcount()));
+    size += stream.gcount();
   }
-  add(text);
+  add(size);
 }
 
 } // namespace offstage

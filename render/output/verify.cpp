@@ -1,11 +1,13 @@
 #include "render/output/verify.h"
 
 #include "render/output/file_error.h"
+#include "render/output/frame_decoder.h"
 #include "render/output/input_file.h"
 #include "render/output/packet_hash.h"
 
 #include <algorithm>
 #include <cstdlib>
+#include <future>
 #include <string>
 #include <string_view>
 
@@ -36,17 +38,22 @@ class Verifier {
 public:
   Verifier(const std::filesystem::path& file, const ExpectedVideo& expected,
            const std::filesystem::path& name)
-      : expected_(expected), name_(name), packet_(libav::makePacket()), frame_(libav::makeFrame()) {
+      : expected_(expected), name_(name), packet_(libav::makePacket()), first_(libav::makePacket()) {
     check(libav::openInput(file, format_), "it cannot be opened again");
     // avformat_find_stream_info() would decode up to twenty frames to guess what the decoder tells us anyway.
     findStream();
-    openDecoder();
   }
 
   void run() {
     readAll();
-    compareStream();
-    decodeLast();
+    const FrameDecoder::Fail failing = [this](std::string_view why) { fail(why); };
+    FrameDecoder first(*stream_, failing);
+    FrameDecoder last(*stream_, failing);
+    // Beside each other: at 1080p the frames to decode take up to a tenth of a second.
+    std::future<void> other = std::async(std::launch::async, [&] { decodeLast(last); });
+    decodeFirst(first);
+    other.get();
+    compareStream(first.context());
     if (!differences_.empty()) fail(differences_);
   }
 
@@ -64,21 +71,6 @@ private:
       videos += isVideo ? 1 : 0;
     }
     if (videos != 1) fail(fmt::format("it has {} video streams instead of 1", videos));
-  }
-
-  void openDecoder() {
-    const AVCodec* codec = avcodec_find_decoder(stream_->codecpar->codec_id);
-    if (codec == nullptr) {
-      throw Error(ExitCode::Environment, "libavcodec has no decoder to check the finished video with: "
-                                         "install the Debian package libavcodec59");
-    }
-    decoder_.reset(libav::allocated(avcodec_alloc_context3(codec)));
-    check(avcodec_parameters_to_context(decoder_.get(), stream_->codecpar), "its codec is not described");
-    decoder_->pkt_timebase = stream_->time_base;
-    decoder_->thread_count = 1;
-    // Nobody looks at the pictures: what smooths them is time lost.
-    decoder_->skip_loop_filter = AVDISCARD_ALL;
-    check(avcodec_open2(decoder_.get(), codec, nullptr), "its decoder does not open");
   }
 
   [[noreturn]] void fail(std::string_view why) const {
@@ -99,20 +91,20 @@ private:
   }
 
   /// What the container says, and what the decoder has found in the first frame.
-  void compareStream() {
+  void compareStream(const AVCodecContext& found) {
     const AVCodecParameters& stream = *stream_->codecpar;
     const CodecTraits& traits = traitsOf(expected_.codec);
     compare("codec", std::string_view(avcodec_get_name(stream.codec_id)), std::string_view(traits.decoded));
     if (traits.profile != nullptr)
-      compare("profile", nameOr(avcodec_profile_name(stream.codec_id, decoder_->profile)),
+      compare("profile", nameOr(avcodec_profile_name(stream.codec_id, found.profile)),
               std::string_view(traits.profile));
     compare("width", stream.width, expected_.width);
     compare("height", stream.height, expected_.height);
-    compare("decoded width", decoder_->width, expected_.width);
-    compare("decoded height", decoder_->height, expected_.height);
-    compare("pixel format", nameOr(av_get_pix_fmt_name(decoder_->pix_fmt)),
+    compare("decoded width", found.width, expected_.width);
+    compare("decoded height", found.height, expected_.height);
+    compare("pixel format", nameOr(av_get_pix_fmt_name(found.pix_fmt)),
             std::string_view(av_get_pix_fmt_name(traits.read)));
-    compareColour(*decoder_, traits);
+    compareColour(found, traits);
     compareTime("duration", format_->duration, kLibavTick, expected_.end,
                 expected_.hasSound ? kSoundPacket : 0.0);
   }
@@ -142,42 +134,44 @@ private:
             fmt::format("{:.6f} s", static_cast<double>(wanted) * av_q2d(expected_.timeBase)));
   }
 
-  /// Every packet of the file; the first frame on the way.
+  /// Every packet of the file; the first is kept.
   void readAll() {
     std::int64_t frames = 0;
-    std::int64_t first = AV_NOPTS_VALUE;
-    bool decoded = false;
     PacketHash packets;
     while (readPacket()) {
       ++frames;
       packets.addStored(*packet_);
       lastStart_ = std::max(lastStart_, packet_->pts);
-      if (first == AV_NOPTS_VALUE) {
-        first = packet_->pts;
-        // At once: a decoder of B-frames gives the first away only with later ones, which take time too.
-        decoded = decode(packet_.get()) || decode(nullptr);
-      }
-      av_packet_unref(packet_.get());
+      if (frames == 1)
+        av_packet_move_ref(first_.get(), packet_.get());
+      else
+        av_packet_unref(packet_.get());
     }
     compare("number of frames", frames, expected_.frames);
-    if (frames == 0 || !decoded || firstDecoded_ != first) fail("its first frame does not decode");
+    if (frames == 0) fail("it has no frames");
     compare("hash of the packets", fmt::format("{:016x}", packets.value()),
             fmt::format("{:016x}", expected_.packets));
-    compareTime("start", first, stream_->time_base, 0);
+    compareTime("start", first_->pts, stream_->time_base, 0);
     compareTime("start of the last frame", lastStart_, stream_->time_base, expected_.lastStart);
   }
 
-  void decodeLast() {
+  void decodeFirst(FrameDecoder& decoder) const {
+    // Nothing behind it: a decoder of B-frames gives the first away only with later ones, which take time
+    // too.
+    const bool decoded = decoder.decode(first_.get()) || decoder.decode(nullptr);
+    if (!decoded || decoder.first() != first_->pts) fail("its first frame does not decode");
+  }
+
+  /// In a thread of its own: packet_ and format_ are only used here meanwhile.
+  void decodeLast(FrameDecoder& decoder) {
     check(av_seek_frame(format_.get(), stream_->index, lastStart_, AVSEEK_FLAG_BACKWARD),
           "its last frame is not found");
-    avcodec_flush_buffers(decoder_.get());
-    lastDecoded_ = AV_NOPTS_VALUE;
     while (readPacket()) {
-      if (packet_->pts == lastStart_ || leadsToLast()) decode(packet_.get());
+      if (packet_->pts == lastStart_ || leadsToLast()) decoder.decode(packet_.get());
       av_packet_unref(packet_.get());
     }
-    decode(nullptr);
-    if (lastDecoded_ != lastStart_) fail("its last frame does not decode");
+    decoder.decode(nullptr);
+    if (decoder.last() != lastStart_) fail("its last frame does not decode");
   }
 
   /// Whether the last frame needs the packet, which comes before it. Of H.264 it decodes with the key frame
@@ -199,32 +193,13 @@ private:
     }
   }
 
-  /// Whether a frame came out. A null packet asks for what the decoder still holds.
-  bool decode(const AVPacket* packet) {
-    check(avcodec_send_packet(decoder_.get(), packet), "a frame does not decode");
-    bool any = false;
-    while (true) {
-      const int result = avcodec_receive_frame(decoder_.get(), frame_.get());
-      if (result == AVERROR(EAGAIN) || result == AVERROR_EOF) return any;
-      check(result, "a frame does not decode");
-      if (frame_->decode_error_flags != 0 || (frame_->flags & AV_FRAME_FLAG_CORRUPT) != 0)
-        fail("a frame is damaged");
-      any = true;
-      if (firstDecoded_ == AV_NOPTS_VALUE) firstDecoded_ = frame_->pts;
-      lastDecoded_ = std::max(lastDecoded_, frame_->pts);
-    }
-  }
-
   const ExpectedVideo& expected_;
   const std::filesystem::path& name_;
   libav::InputContext format_;
   AVStream* stream_ = nullptr;
-  libav::CodecContext decoder_;
   libav::Packet packet_;
-  libav::VideoFrame frame_;
+  libav::Packet first_;
   std::int64_t lastStart_ = AV_NOPTS_VALUE;
-  std::int64_t firstDecoded_ = AV_NOPTS_VALUE;
-  std::int64_t lastDecoded_ = AV_NOPTS_VALUE;
   std::string differences_;
 };
 

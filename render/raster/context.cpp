@@ -37,9 +37,14 @@ std::string_view wantedBackend() {
 
 } // namespace
 
-void preloadGl() {
-  if (wantedBackend() != "auto" && wantedBackend() != "osmesa") return;
+bool prepareGl() {
+  if (wantedBackend() != "auto" && wantedBackend() != "osmesa") return false;
   setMesaDefaults();
+  return true;
+}
+
+void preloadGl() {
+  if (!prepareGl()) return;
   std::string reason; // whoever makes a context will hear it
   static_cast<void>(DynamicLibrary::open(kOsMesaLibrary, reason));
 }

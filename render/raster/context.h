@@ -30,7 +30,12 @@ std::unique_ptr<GlContext> makeGlContext();
 
 /// Loads the library that makeGlContext() will most likely use, and makes nothing with it: processes that are
 /// forked afterwards share its memory (of LLVM alone 8 MB that the loader has written to) and the time that
-/// loading takes. Does nothing where it is missing, or another one is asked for.
+/// loading takes. Does nothing where it is missing, or another one is asked for. May be called from a thread
+/// once prepareGl() has been called.
 void preloadGl();
+
+/// Sets the environment variables that Mesa reads, unless the user has. Whether preloadGl() will load
+/// something. No other thread may read the environment meanwhile.
+bool prepareGl();
 
 } // namespace offstage

@@ -56,14 +56,12 @@ std::vector<DynamicLibrary> openAll() {
   return libraries;
 }
 
-} // namespace
-
-/// Fills every slot. Throws Error(Environment) when a library or a function is missing.
-void offstageLoadLibav() {
-  static const std::vector<DynamicLibrary> kAll = openAll();
+/// Fills every slot; true.
+bool fillSlots() {
+  const std::vector<DynamicLibrary> all = openAll();
   for (std::size_t i = 0; offstageLibavNames[i] != nullptr; ++i) {
     void* function = nullptr;
-    for (const DynamicLibrary& library : kAll) {
+    for (const DynamicLibrary& library : all) {
       function = reinterpret_cast<void*>(library.function<void (*)()>(offstageLibavNames[i]));
       if (function != nullptr) break;
     }
@@ -73,4 +71,14 @@ void offstageLoadLibav() {
           fmt::format("FFmpeg's libraries lack {}: they are not those of this build", offstageLibavNames[i]));
     offstageLibavSlots[i] = function;
   }
+  return true;
+}
+
+} // namespace
+
+/// Fills the slots once, whichever thread comes first. Throws Error(Environment) when a library or a function
+/// is missing.
+void offstageLoadLibav() {
+  static const bool kFilled = fillSlots();
+  static_cast<void>(kFilled);
 }

@@ -4,10 +4,12 @@
 #include "render/job/render_job.h"
 #include "render/job/scene_source.h"
 #include "src/app/commands.h"
+#include "src/app/preload.h"
 #include "src/scene/scene.h"
 
 #include <memory>
 #include <optional>
+#include <thread>
 
 #include <CLI/CLI.hpp>
 
@@ -26,7 +28,9 @@ void addRender(CLI::App& app, Action& action) {
     action = [arguments] {
       const RenderOptions& options = arguments->options;
       requireOutput(options);
+      std::jthread libraries = preloadLibraries(options.out);
       const Scene scene = loadScene(arguments->scene, options.sceneOverrides());
+      libraries.join();
       const Viewport viewport = options.viewport(scene.size[0], scene.size[1], scene.scale);
       if (options.strict) {
         WarningLog strict(WarningLog::Mode::Strict);
