@@ -7,9 +7,10 @@
 
 namespace offstage {
 
-std::jthread preloadLibraries(const std::filesystem::path& out) {
+std::future<void> preloadLibraries(const std::filesystem::path& out) {
   prepareGl(); // here: it sets what other threads may read
-  return std::jthread([out] {
+  // Deferred where the system allows no more threads.
+  return std::async(std::launch::async | std::launch::deferred, [out] {
     try {
       if (!out.empty() && holdsSound(outputKind(out)))
         static_cast<void>(libavVersions()); // any call loads them

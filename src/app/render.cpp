@@ -7,9 +7,9 @@
 #include "src/app/preload.h"
 #include "src/scene/scene.h"
 
+#include <future>
 #include <memory>
 #include <optional>
-#include <thread>
 
 #include <CLI/CLI.hpp>
 
@@ -28,9 +28,9 @@ void addRender(CLI::App& app, Action& action) {
     action = [arguments] {
       const RenderOptions& options = arguments->options;
       requireOutput(options);
-      std::jthread libraries = preloadLibraries(options.out);
+      const std::future<void> libraries = preloadLibraries(options.out);
       const Scene scene = loadScene(arguments->scene, options.sceneOverrides());
-      libraries.join();
+      libraries.wait();
       const Viewport viewport = options.viewport(scene.size[0], scene.size[1], scene.scale);
       if (options.strict) {
         WarningLog strict(WarningLog::Mode::Strict);
