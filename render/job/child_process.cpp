@@ -45,7 +45,8 @@ pid_t forkChild(SharedState& state, const std::function<void()>& body) {
   if (child > 0) return child;
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1); // it ended before the line above
-  std::signal(SIGINT, SIG_IGN);
+  std::signal(SIGINT, SIG_IGN);      // the parent hears it, too, and ends its children
+  std::signal(SIGHUP, SIG_IGN);
   std::signal(SIGTERM, SIG_DFL);
   _exit(run(state, body));
 }

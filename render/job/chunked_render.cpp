@@ -116,18 +116,12 @@ public:
 private:
   /// What runs that were killed while they wrote OUT itself have left beside it.
   void removeLeftovers() const {
-    const fs::path out = fs::weakly_canonical(options_.out);
-    if (outputKind(out) == OutputKind::PngSequence) {
-      const FramePattern pattern(out);
-      removeAbandoned(pattern.folder(), [&](std::string_view name, bool whole) {
-        return whole ? pattern.numberOf(name).has_value() : pattern.mayBeginWith(name);
-      });
-    } else {
-      const std::string wanted = out.filename().native();
-      removeAbandoned(out.parent_path(), [&](std::string_view name, bool whole) {
-        return whole ? name == wanted : wanted.starts_with(name);
-      });
-    }
+    if (!options_.hashFile.empty()) removeAbandoned(options_.hashFile);
+    if (outputKind(options_.out) != OutputKind::PngSequence) return removeAbandoned(options_.out);
+    const FramePattern pattern(placeOf(options_.out));
+    removeAbandoned(pattern.folder(), [&](std::string_view name, bool whole) {
+      return whole ? pattern.numberOf(name).has_value() : pattern.mayBeginWith(name);
+    });
   }
 
   using SteadyClock = std::chrono::steady_clock;
@@ -183,13 +177,15 @@ private:
         for (const std::int64_t chunk : missing) makeChunk(job, chunk, frames, tick);
       }
     } catch (const Error& error) {
-      throw Error(error.code(), error.what() + whatIsKept(parts));
+      removeLeftovers(); // workers that were ended have left theirs
+      throw Error(error.code(), error.what() + whatIsKept(parts, error.code()));
     }
   }
 
-  /// For the message of an error: what the next run can use. Nothing when it would start over, too.
-  [[nodiscard]] std::string whatIsKept(const Parts& parts) const {
-    if (!options_.resume) return {};
+  /// For the message of an error: what the next run can use. Nothing when it would start over, or can never
+  /// work.
+  [[nodiscard]] std::string whatIsKept(const Parts& parts, ExitCode code) const {
+    if (!options_.resume || code == ExitCode::BadInput) return {};
     std::int64_t kept = 0;
     for (std::int64_t chunk = firstChunk_; chunk < endChunk_; ++chunk)
       kept += fs::exists(parts.chunk(chunk)) ? 1 : 0;
@@ -206,7 +202,7 @@ private:
     try {
       return joinChunks(parts);
     } catch (const Error& error) {
-      throw Error(error.code(), error.what() + whatIsKept(parts));
+      throw Error(error.code(), error.what() + whatIsKept(parts, error.code()));
     }
   }
 

@@ -33,14 +33,20 @@ int printResolution(double scale) {
   return static_cast<int>(std::lround(kPerInch * scale / kInch));
 }
 
-Poster::Poster(std::filesystem::path file) : path_(std::move(file)), isPng_(isPng(path_)), file_(path_) {}
+Poster::Poster(std::filesystem::path file) : path_(std::move(file)), isPng_(isPng(path_)), file_(path_) {
+  removeAbandoned(path_);
+}
+
+void Poster::requireFit(const Source& source) const {
+  if (isPng_ || pictureOf(source).background.a == 255) return;
+  throw Error(
+      ExitCode::BadInput,
+      fmt::format("{}: a JPEG has no transparency; use .png, or an opaque background", quoted(path_)));
+}
 
 void Poster::write(Source& source, std::optional<double> at, double scale) {
+  requireFit(source);
   const bool alpha = pictureOf(source).background.a != 255;
-  if (alpha && !isPng_)
-    throw Error(
-        ExitCode::BadInput,
-        fmt::format("{}: a JPEG has no transparency; use .png, or an opaque background", quoted(path_)));
   const Frame frame = drawFrame(source, at.value_or(videoSeconds(source) * 0.5));
   const std::vector<std::uint8_t> bytes =
       isPng_ ? encodePng(frame, alpha, printResolution(scale)) : encodeJpeg(frame);

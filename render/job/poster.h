@@ -18,6 +18,9 @@ public:
   /// Throws Error(BadInput) for another ending and a file that cannot be written.
   explicit Poster(std::filesystem::path file);
 
+  /// Throws Error(BadInput) for a JPEG of what is not opaque: before a video is made that it belongs to.
+  void requireFit(const Source& source) const;
+
   /// Draws what the video shows at `at` (s of the video; nothing: at half of it) and puts the file under its
   /// name. `source` must be at frame 0. `scale`: output pixels per scene pixel, for the picture's resolution.
   /// Throws Error(BadInput) when `at` lies outside the video, or a JPEG's background is not opaque.

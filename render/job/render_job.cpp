@@ -4,6 +4,7 @@
 #include "render/job/console.h"
 #include "render/job/frame_maker.h"
 #include "render/job/interrupt.h"
+#include "render/job/sidecar.h"
 #include "render/output/atomic_file.h"
 #include "render/output/file_error.h"
 #include "render/output/frame_pattern.h"
@@ -35,9 +36,14 @@ RenderResult renderStream(Source& source, const RenderOptions& options) {
     const Picture picture = pictureOf(source);
     sink = makeSink(options.out, {picture.width, picture.height, picture.background.a != 255, schedule.fps(),
                                   source.title(), options.quality});
+    sink->setSignalWatch(throwIfInterrupted);
+    removeAbandoned(options.out);
   }
   std::optional<AtomicFile> hashes;
-  if (!options.hashFile.empty()) hashes.emplace(options.hashFile);
+  if (!options.hashFile.empty()) {
+    removeAbandoned(options.hashFile);
+    hashes.emplace(options.hashFile);
+  }
   FrameMaker frames(source, schedule);
 
   Progress progress(options.progress, schedule.frames(), schedule.seconds());
@@ -62,15 +68,22 @@ RenderResult renderStream(Source& source, const RenderOptions& options) {
 void requireApart(std::string_view option, const std::filesystem::path& out, std::string_view otherOption,
                   const std::filesystem::path& other) {
   if (out.empty() || other.empty() || out == "-") return;
-  const std::filesystem::path place = std::filesystem::weakly_canonical(other);
-  bool same = std::filesystem::weakly_canonical(out) == place;
+  const std::filesystem::path place = placeOf(other);
+  bool same = placeOf(out) == place;
   if (!same && option == "-o" && outputKind(out) == OutputKind::PngSequence) {
-    const FramePattern pattern(std::filesystem::weakly_canonical(out));
+    const FramePattern pattern(placeOf(out));
     same = pattern.folder() == place.parent_path() && pattern.numberOf(place.filename().native()).has_value();
   }
   if (same)
     throw Error(ExitCode::BadInput,
                 fmt::format("{} and {} cannot both be {}", option, otherOption, quoted(other)));
+}
+
+/// The scene and what it is made with: an output in its place would replace it.
+void requireApart(const RenderOptions& options, std::string_view what, const std::filesystem::path& input) {
+  requireApart("-o", options.out, what, input);
+  requireApart("--hash", options.hashFile, what, input);
+  requireApart("--poster", options.poster, what, input);
 }
 
 } // namespace
@@ -88,6 +101,22 @@ void requireOutput(const RenderOptions& options) {
   requireApart("-o", options.out, "--hash", options.hashFile);
   requireApart("-o", options.out, "--poster", options.poster);
   requireApart("--hash", options.hashFile, "--poster", options.poster);
+}
+
+void requireApart(const RenderOptions& options, const Scene& scene) {
+  requireApart(options, "the scene", scene.file);
+  for (const auto& file : scene.files) requireApart(options, "a file that the scene reads,", file);
+  const auto narration = [&](const std::optional<SoundFile>& sound) {
+    if (sound) requireApart(options, sound->key, sound->file);
+  };
+  narration(scene.timeline.narration);
+  for (const Section& section : scene.timeline.sections) narration(section.narration);
+  if (options.dtLog) requireApart(options, "--dt", *options.dtLog);
+  if (options.input) requireApart(options, "--input", *options.input);
+  const bool captions = !scene.timeline.captions.empty() || !scene.timeline.eventCaptions.empty();
+  if (!captions || options.out.empty()) return;
+  if (const auto sidecar = Sidecar::nameFor(options.out))
+    requireApart(options, "the captions' file", *sidecar);
 }
 
 void printSummary(const RenderResult& result, const RenderOptions& options) {

@@ -2,6 +2,7 @@
 
 #include "render/job/render_options.h"
 #include "render/job/source.h"
+#include "src/scene/scene.h"
 
 #include <cstdint>
 
@@ -29,6 +30,10 @@ RenderResult render(Source& source, const RenderOptions& options);
 /// Throws Error(BadInput) unless the options name something to make (an output, a hash file or a poster), and
 /// each in a place of its own.
 void requireOutput(const RenderOptions& options);
+
+/// Throws Error(BadInput) when an output would replace the scene, a file that it is made with, or its
+/// captions' file.
+void requireApart(const RenderOptions& options, const Scene& scene);
 
 /// Prints what a command ends with, "out.mp4: 1200 frames, 20.000 s, in 3.21 s (6.2x real time), 812 KiB", to
 /// standard output, or to stderr when the frames themselves went to standard output.

@@ -22,6 +22,7 @@ std::optional<std::filesystem::path> Sidecar::nameFor(const std::filesystem::pat
 }
 
 Sidecar::Sidecar(const std::filesystem::path& out) : file_(nameFor(out).value()) {
+  requireWritable(file_); // not a folder, and nothing that hangs when it is opened
   std::error_code ignored;
   if (std::filesystem::exists(file_, ignored)) {
     std::ifstream stream(file_, std::ios::binary);
@@ -31,7 +32,6 @@ Sidecar::Sidecar(const std::filesystem::path& out) : file_(nameFor(out).value())
           fmt::format("the captions go to {}, but a file is there that offstage has not made: move it away",
                       quoted(file_)));
   }
-  requireWritable(file_);
 }
 
 void Sidecar::write(const VideoTracks& tracks) const {

@@ -126,8 +126,7 @@ std::int64_t ApngOutput::join(std::span<const std::filesystem::path> chunks, std
   header[9] = 6; // RGBA
   png.add("IHDR", header);
   png.add("sRGB", std::array<std::uint8_t, 1>{0}); // perceptual
-  if (!format_.title.empty()) png.add("iTXt", textChunk("Title", format_.title));
-  std::array<std::uint8_t, 8> control{}; // how many frames; repeated for ever (0)
+  std::array<std::uint8_t, 8> control{};           // how many frames; repeated for ever (0)
   storeBigEndian(control.data(), static_cast<std::uint32_t>(count));
   png.add("acTL", control);
 
@@ -161,6 +160,8 @@ std::int64_t ApngOutput::join(std::span<const std::filesystem::path> chunks, std
     storeBigEndian(number.data(), sequence++);
     png.add("fdAT", number, patch.zlib);
   }
+  // Behind the frames: libav takes the file for a still picture when a long text stands before them.
+  if (!format_.title.empty()) png.add("iTXt", textChunk("Title", format_.title));
   png.add("IEND", {});
   verifyAnimation(file.temporary(), {"apng", format_.width, format_.height, count}, path_);
   file.commit();

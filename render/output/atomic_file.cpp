@@ -208,6 +208,14 @@ void removeAbandoned(const fs::path& folder, const NameTest& isOurs) {
   }
 }
 
+void removeAbandoned(const fs::path& file) {
+  const fs::path place = placeOf(file);
+  const std::string wanted = place.filename().native();
+  removeAbandoned(place.parent_path(), [&](std::string_view name, bool whole) {
+    return whole ? name == wanted : wanted.starts_with(name);
+  });
+}
+
 void syncFolder(const fs::path& folder) {
   const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   // A folder may be written to without being readable, and some file systems sync no folders (EINVAL): the

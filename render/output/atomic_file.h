@@ -67,6 +67,8 @@ using NameTest = std::function<bool(std::string_view name, bool whole)>;
 /// Removes from `folder` the temporaries that killed processes have left of files whose names `isOurs`
 /// accepts. Those of living processes stay: each holds a lock on its own.
 void removeAbandoned(const std::filesystem::path& folder, const NameTest& isOurs);
+/// The same of one file.
+void removeAbandoned(const std::filesystem::path& file);
 
 /// Waits until the folder's entries are on the disk.
 void syncFolder(const std::filesystem::path& folder);

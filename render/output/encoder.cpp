@@ -66,9 +66,10 @@ VideoEncoder::VideoEncoder(const EncoderSettings& settings) : traits_(traitsOf(s
     }
     options.set(key.c_str(), value);
   }
-  libav::check(
-      avcodec_open2(&context, &codec, options.get()), ExitCode::BadInput,
-      fmt::format("{} cannot encode pictures of {} × {} px", traits_.title, context.width, context.height));
+  libav::check(avcodec_open2(&context, &codec, options.get()),
+               ExitCode::Transient, // what is too large was refused
+               fmt::format("{} does not begin to encode pictures of {} × {} px; is memory short?",
+                           traits_.title, context.width, context.height));
   options.requireAllTaken();
 
   parameters_.reset(libav::allocated(avcodec_parameters_alloc()));

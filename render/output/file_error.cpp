@@ -76,6 +76,10 @@ std::string_view shortened(std::string_view name, std::size_t most) {
   return name.substr(0, length);
 }
 
+std::filesystem::path placeOf(const std::filesystem::path& path) {
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+}
+
 std::filesystem::path folderOf(const std::filesystem::path& path) {
   std::filesystem::path folder = path.parent_path();
   return folder.empty() ? "." : folder;

@@ -27,4 +27,9 @@ std::string_view shortened(std::string_view name, std::size_t most);
 /// The folder that `path` lies in; "." for a bare name.
 std::filesystem::path folderOf(const std::filesystem::path& path);
 
+/// The place that a name means, from the root on and without links, as far as it is there: two names of one
+/// file have one. (std::filesystem::weakly_canonical() alone leaves a relative name as it is when nothing of
+/// it is there yet.)
+std::filesystem::path placeOf(const std::filesystem::path& path);
+
 } // namespace offstage

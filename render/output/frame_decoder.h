@@ -19,6 +19,9 @@ public:
   /// decoder for the stream.
   FrameDecoder(const AVStream& stream, Fail fail);
 
+  /// Nothing that libav has to say of it is printed from here on.
+  void silence() { context_->log_level_offset = kNeverShown; }
+
   /// Whether a frame came out. A null packet asks for what the decoder still holds, and ends it.
   bool decode(const AVPacket* packet);
 
@@ -29,6 +32,8 @@ public:
   [[nodiscard]] const AVCodecContext& context() const { return *context_; } ///< what it found out
 
 private:
+  static constexpr int kNeverShown = AV_LOG_MAX_OFFSET;
+
   int check(int result, std::string_view what) const;
 
   Fail fail_;

@@ -15,10 +15,13 @@ namespace offstage {
 
 namespace {
 
-/// Waits until a descriptor that another program has made non-blocking takes bytes again.
-void waitUntilWritable(int descriptor) {
+/// Waits until a descriptor that another program has made non-blocking takes bytes again; false when a signal
+/// came before.
+bool waitUntilWritable(int descriptor) {
   pollfd entry{descriptor, POLLOUT, 0};
-  if (poll(&entry, 1, -1) < 0 && errno != EINTR) throw standardOutputError(errno);
+  if (poll(&entry, 1, -1) >= 0) return true;
+  if (errno != EINTR) throw standardOutputError(errno);
+  return false;
 }
 
 } // namespace
@@ -56,14 +59,18 @@ void RawPipeSink::write(const Frame& frame, const FrameTiming& /*timing*/) {
   while (size > 0) {
     const ssize_t written = ::write(descriptor_, bytes, size);
     if (written < 0) {
-      if (errno == EINTR) continue;
+      if (errno == EINTR) {
+        tellSignal();
+        continue;
+      }
       if (errno != EAGAIN && errno != EWOULDBLOCK) throw standardOutputError(errno);
-      waitUntilWritable(descriptor_);
+      if (!waitUntilWritable(descriptor_)) tellSignal();
       continue;
     }
     bytes += written;
     size -= static_cast<std::size_t>(written);
     bytes_ += written;
+    if (size > 0) tellSignal(); // a signal ends a write() that has written some
   }
 }
 

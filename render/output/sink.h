@@ -5,9 +5,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace offstage {
 
@@ -44,6 +46,18 @@ public:
   virtual void write(const Frame& frame, const FrameTiming& timing) = 0;
   virtual void finish() = 0; ///< throws Error(BadInput) when there was no frame
   [[nodiscard]] virtual std::int64_t bytesWritten() const = 0;
+
+  /// `watch` is called when a signal may have interrupted write() while it waits for a reader; what it throws
+  /// ends the waiting. Without one, write() waits on.
+  void setSignalWatch(std::function<void()> watch) { signalWatch_ = std::move(watch); }
+
+protected:
+  void tellSignal() const {
+    if (signalWatch_) signalWatch_();
+  }
+
+private:
+  std::function<void()> signalWatch_;
 };
 
 /// The sink of a raw output: "-" (RGBA to standard output) or a name that ends in .raw. Throws

@@ -48,11 +48,10 @@ public:
     readAll();
     const FrameDecoder::Fail failing = [this](std::string_view why) { fail(why); };
     FrameDecoder first(*stream_, failing);
-    FrameDecoder last(*stream_, failing);
     // Beside each other, if the system allows a thread: at 1080p the frames to decode take up to a tenth of a
     // second.
     std::future<void> other =
-        std::async(std::launch::async | std::launch::deferred, [&] { decodeLast(last); });
+        std::async(std::launch::async | std::launch::deferred, [this, &failing] { decodeLast(failing); });
     decodeFirst(first);
     other.get();
     compareStream(first.context());
@@ -164,24 +163,35 @@ private:
     if (!decoded || decoder.first() != first_->pts) fail("its first frame does not decode");
   }
 
-  /// In a thread of its own: packet_ and format_ are only used here meanwhile.
-  void decodeLast(FrameDecoder& decoder) {
+  /// In a thread of its own: packet_ and format_ are only used here meanwhile. Of H.264 the last frame
+  /// decodes with the key frame alone, which the decoder takes for the references that are not there. That
+  /// those are what was encoded is known from their hash; to decode the last chunk of a film of thousands of
+  /// bodies takes a quarter of a second. Only if that fails, all is decoded that the last frame rests on.
+  void decodeLast(const FrameDecoder::Fail& failing) {
+    if (stream_->codecpar->codec_id == AV_CODEC_ID_H264) {
+      try {
+        FrameDecoder decoder(*stream_, failing);
+        decoder.silence(); // it complains of what is not there
+        return decodeLast(decoder, true);
+      } catch (const Error&) { // the whole will tell
+        av_packet_unref(packet_.get());
+      }
+    }
+    FrameDecoder decoder(*stream_, failing);
+    decodeLast(decoder, false);
+  }
+
+  void decodeLast(FrameDecoder& decoder, bool keyFrameAlone) {
     check(av_seek_frame(format_.get(), stream_->index, lastStart_, AVSEEK_FLAG_BACKWARD),
           "its last frame is not found");
     while (readPacket()) {
-      if (packet_->pts == lastStart_ || leadsToLast()) decoder.decode(packet_.get());
+      const bool wanted =
+          !keyFrameAlone || packet_->pts == lastStart_ || (packet_->flags & AV_PKT_FLAG_KEY) != 0;
+      if (wanted) decoder.decode(packet_.get());
       av_packet_unref(packet_.get());
     }
     decoder.decode(nullptr);
     if (decoder.last() != lastStart_) fail("its last frame does not decode");
-  }
-
-  /// Whether the last frame needs the packet, which comes before it. Of H.264 it decodes with the key frame
-  /// alone, which the decoder takes for the references that are not there. That those are what was encoded is
-  /// known from their hash; to decode the last chunk of a film of thousands of bodies takes a quarter of a
-  /// second.
-  [[nodiscard]] bool leadsToLast() const {
-    return stream_->codecpar->codec_id != AV_CODEC_ID_H264 || (packet_->flags & AV_PKT_FLAG_KEY) != 0;
   }
 
   /// The next packet of the video.

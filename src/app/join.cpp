@@ -28,6 +28,7 @@ void addJoin(CLI::App& app, Action& action) {
       const RenderOptions options = optionsOfSegments(arguments->options);
       requireOutput(options);
       const Scene scene = loadScene(arguments->scene, options.sceneOverrides());
+      requireApart(options, scene);
       SceneSource source(scene, options.viewport(scene.size[0], scene.size[1], scene.scale));
       printSummary(joinSegments(source, options), options);
       return static_cast<int>(ExitCode::Done);

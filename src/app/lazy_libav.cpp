@@ -3,6 +3,7 @@
 #include "render/output/libav.h"
 #include "render/raster/dynamic_library.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -59,6 +60,7 @@ std::vector<DynamicLibrary> openAll() {
 /// Fills every slot; true.
 bool fillSlots() {
   const std::vector<DynamicLibrary> all = openAll();
+  std::vector<void*> functions; // none is called before all are found
   for (std::size_t i = 0; offstageLibavNames[i] != nullptr; ++i) {
     void* function = nullptr;
     for (const DynamicLibrary& library : all) {
@@ -69,8 +71,9 @@ bool fillSlots() {
       throw offstage::Error(
           offstage::ExitCode::Environment,
           fmt::format("FFmpeg's libraries lack {}: they are not those of this build", offstageLibavNames[i]));
-    offstageLibavSlots[i] = function;
+    functions.push_back(function);
   }
+  std::ranges::copy(functions, offstageLibavSlots);
   return true;
 }
 

@@ -3,7 +3,6 @@
 #include "render/output/codecs.h"
 #include "render/output/output_kind.h"
 #include "render/raster/context.h"
-#include "src/sim/error.h"
 
 namespace offstage {
 
@@ -15,7 +14,7 @@ std::future<void> preloadLibraries(const std::filesystem::path& out) {
       if (!out.empty() && holdsSound(outputKind(out)))
         static_cast<void>(libavVersions()); // any call loads them
       preloadGl();
-    } catch (const Error&) { // a name of no output, or no such library: found again where it can be said
+    } catch (...) { // a name of no output, no such library, no memory: found again where it can be said
     }
   });
 }

@@ -31,6 +31,7 @@ void addRender(CLI::App& app, Action& action) {
       const std::future<void> libraries = preloadLibraries(options.out);
       const Scene scene = loadScene(arguments->scene, options.sceneOverrides());
       libraries.wait();
+      requireApart(options, scene);
       const Viewport viewport = options.viewport(scene.size[0], scene.size[1], scene.scale);
       if (options.strict) {
         WarningLog strict(WarningLog::Mode::Strict);
@@ -44,6 +45,7 @@ void addRender(CLI::App& app, Action& action) {
       if (!options.out.empty() || !options.hashFile.empty()) {
         SceneSource source(scene, viewport);
         source.watch(scene, warnings);
+        if (poster) poster->requireFit(source);
         printSummary(render(source, options), options);
       }
       if (poster) {
