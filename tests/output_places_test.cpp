@@ -19,9 +19,14 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr const char* kBall = "duration = 0.1\n[frame]\nsize = [64, 48]\n[[body]]\nshape = \"circle\"\n"
                               "center = [20, 20]\nradius = 9\nvelocity = [60, 0]\n";
+
+std::string program() {
+  return OFFSTAGE_BINARY_DIR "/offstage";
+}
 
 /// Runs in the folder, so that names can be bare.
 ProcessResult renderIn(const TempDir& dir, std::vector<std::string> arguments) {
@@ -50,7 +55,9 @@ TEST(OutputPlaces, TwoNamesOfOneFileThatIsNotThereYetAreOnePlace) {
     EXPECT_THAT(result.err, HasSubstr("cannot both be")) << arguments.back();
     EXPECT_THAT(dir.names(), ElementsAre("captions.toml", "s.toml")) << arguments.back();
   }
-  EXPECT_EQ(renderIn(dir, {"s.toml", "-o", "r.mp4", "--hash", "r.vtt"}).status, 0) << "without captions";
+  const ProcessResult apart =
+      renderIn(dir, {"s.toml", "-o", "r.mp4", "--hash", "r.vtt", "--poster", "P.PNG"});
+  EXPECT_EQ(apart.status, 0) << apart.err; // there are no captions
 }
 
 TEST(OutputPlaces, WhatAVideoIsMadeFromIsNotReplacedByIt) {
@@ -88,6 +95,35 @@ TEST(OutputPlaces, WhatKilledRunsLeftOfABareNameIsRemoved) {
   EXPECT_THAT(left, ElementsAre(".other.mp4.4194305.partial"));
 }
 
+TEST(OutputPlaces, ALogMayBeSpelledOtherwiseForTheNextSegment) {
+  const TempDir dir;
+  dir.write("s.toml", kBall);
+  std::string log;
+  for (int frame = 0; frame < 200; ++frame) log += "20000000\n";
+  dir.write("a.dt", log);
+  const ProcessResult first =
+      renderIn(dir, {"s.toml", "--dt", "a.dt", "--duration", "4", "--segment", "1/2", "-o", "x.mp4"});
+  const ProcessResult second =
+      renderIn(dir, {"s.toml", "--dt", "./a.dt", "--duration", "4", "--segment", "2/2", "-o", "x.mp4"});
+  EXPECT_EQ(first.status + second.status, 0) << first.err << second.err;
+  EXPECT_THAT(second.err, Not(HasSubstr("starting over")));
+  EXPECT_EQ(offstage({"join", dir / "s.toml", "-o", dir / "x.mp4"}).status, 0);
+}
+
+TEST(OutputPlaces, SegmentsOfAnotherDriverAreNotJoined) {
+  const TempDir dir;
+  dir.write("s.toml", kBall);
+  const std::vector<std::string> arguments{"render", "s.toml", "--duration", "2",
+                                           "-o",     "x.mp4",  "--segment",  "1/2"};
+  ProcessOptions other;
+  other.directory = dir.path();
+  other.environment = {{"GALLIUM_DRIVER", "softpipe"}};
+  EXPECT_EQ(offstage(arguments, other).status, 0);
+  const ProcessResult joined = offstage({"join", dir / "s.toml", "-o", dir / "x.mp4"});
+  EXPECT_EQ(joined.status, 2);
+  EXPECT_THAT(joined.err, HasSubstr("which differs in the driver"));
+}
+
 TEST(OutputPlaces, WhatIsNoFileInTheWayIsAnErrorAndNoHang) {
   const TempDir dir;
   dir.write("s.toml", std::string(kBall) + "[[caption]]\nfrom = 0\nto = 0.1\ntext = \"a ball\"\n");
@@ -96,12 +132,12 @@ TEST(OutputPlaces, WhatIsNoFileInTheWayIsAnErrorAndNoHang) {
   std::filesystem::create_directory(dir / "m.mp4.parts");
   ASSERT_EQ(mkfifo((dir / "m.mp4.parts/manifest").c_str(), 0600), 0);
   for (const char* out : {"g.mp4", "e.mp4"}) {
-    Running run({OFFSTAGE_BINARY_DIR "/offstage", "render", dir / "s.toml", "-o", dir / out});
+    Running run({program(), "render", dir / "s.toml", "-o", dir / out});
     ASSERT_TRUE(run.wait(20000)) << out;
     EXPECT_EQ(run.finish(), 2) << out;
     EXPECT_THAT(run.errors(), HasSubstr("cannot write")) << out;
   }
-  Running join({OFFSTAGE_BINARY_DIR "/offstage", "join", dir / "s.toml", "-o", dir / "m.mp4"});
+  Running join({program(), "join", dir / "s.toml", "-o", dir / "m.mp4"});
   ASSERT_TRUE(join.wait(20000));
   EXPECT_EQ(join.finish(), 2);
 }
@@ -123,8 +159,8 @@ TEST(OutputPlaces, ASignalLeavesNothingUnfinished) {
   for (const Case& tested : {Case{"x.raw", SIGHUP}, Case{"x.raw", SIGTERM}, Case{"%d.png", SIGTERM},
                              Case{"%d.png", SIGHUP}, Case{"x.mkv", SIGHUP}}) {
     const TempDir dir;
-    Running run({OFFSTAGE_BINARY_DIR "/offstage", "render", scene("exercise2_bounce"), "--size", "640x480",
-                 "--duration", "600", "-o", dir / tested.out});
+    Running run({program(), "render", scene("exercise2_bounce"), "--size", "640x480", "--duration", "600",
+                 "-o", dir / tested.out});
     const auto begun = [&] {
       const std::vector<std::string> names = dir.names();
       return std::ranges::any_of(names, isTemporary) ||
@@ -144,8 +180,8 @@ TEST(OutputPlaces, AReaderThatStandsStillDoesNotKeepARenderAlive) {
   ASSERT_EQ(mkfifo((dir / "pipe").c_str(), 0600), 0);
   const int reader = open((dir / "pipe").c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC); // and reads nothing
   ASSERT_GE(reader, 0);
-  Running run({"/bin/sh", "-c", "exec \"$@\" >\"$0\"", dir / "pipe", OFFSTAGE_BINARY_DIR "/offstage",
-               "render", scene("exercise2_bounce"), "--size", "640x480", "-o", "-"});
+  Running run({"/bin/sh", "-c", "exec \"$@\" >\"$0\"", dir / "pipe", program(), "render",
+               scene("exercise2_bounce"), "--size", "640x480", "-o", "-"});
   run.wait(1500); // the pipe is full by then
   run.signal(SIGTERM);
   EXPECT_TRUE(run.wait(10000)) << "it waits on";

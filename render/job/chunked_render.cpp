@@ -12,6 +12,7 @@
 #include "render/output/file_error.h"
 #include "render/output/frame_pattern.h"
 #include "render/output/output_kind.h"
+#include "render/raster/context.h"
 #include "src/sim/error.h"
 
 #include <algorithm>
@@ -146,6 +147,7 @@ private:
     manifest.add("title", source_.title());
     manifest.add("frames", fmt::format("{} in {} chunks", plan_.frames(), plan_.chunks()));
     manifest.add("output", output_->description());
+    manifest.add("driver", glDriver());
     manifest.add(kHashes, hashes ? "yes" : "no");
     return manifest;
   }

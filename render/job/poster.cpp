@@ -4,6 +4,7 @@
 #include "render/job/still.h"
 #include "render/output/file_error.h"
 #include "render/output/jpeg.h"
+#include "render/output/output_kind.h"
 #include "render/output/png.h"
 #include "src/sim/error.h"
 
@@ -21,7 +22,7 @@ constexpr double kInch = 0.0254; // m
 
 /// Whether a poster of this name is a PNG; else it is a JPEG.
 bool isPng(const std::filesystem::path& file) {
-  const std::filesystem::path ending = file.extension();
+  const std::string ending = lowerCaseEnding(file);
   if (ending == ".png") return true;
   if (ending == ".jpg" || ending == ".jpeg") return false;
   throw Error(ExitCode::BadInput, fmt::format("{}: a poster ends in .png, .jpg or .jpeg", quoted(file)));

@@ -1,5 +1,7 @@
 #include "render/job/render_options.h"
 
+#include "render/output/file_error.h"
+
 #include <string_view>
 
 #include <fmt/format.h>
@@ -22,8 +24,8 @@ std::vector<std::string> RenderOptions::drawingArguments() const {
   add("duration", duration);
   add("from", from);
   add("to", to);
-  if (input) arguments.push_back(fmt::format("--input={}", std::filesystem::absolute(*input).native()));
-  if (dtLog) arguments.push_back(fmt::format("--dt={}", std::filesystem::absolute(*dtLog).native()));
+  if (input) arguments.push_back(fmt::format("--input={}", placeOf(*input).native()));
+  if (dtLog) arguments.push_back(fmt::format("--dt={}", placeOf(*dtLog).native()));
   add("seed", seed);
   add("scale", scale);
   if (quality) arguments.push_back(fmt::format("--quality={}", qualityName(*quality)));

@@ -26,13 +26,6 @@ constexpr const char* kList =
     ".mp4, .mkv, .mov, .webm, .gif, .apng, a pattern such as frames/%06d.png, .raw (RGBA "
     "bytes), or - (RGBA bytes to standard output)";
 
-std::string lowerCaseEnding(const std::filesystem::path& out) {
-  std::string ending = out.extension().native();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return ending;
-}
-
 /// "x-%06d.png" for "x.png": what the user has probably meant.
 std::string numbered(std::filesystem::path out) {
   out.replace_filename(out.stem().native() + "-%06d" + out.extension().native());
@@ -40,6 +33,13 @@ std::string numbered(std::filesystem::path out) {
 }
 
 } // namespace
+
+std::string lowerCaseEnding(const std::filesystem::path& out) {
+  std::string ending = out.extension().native();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return ending;
+}
 
 OutputKind outputKind(const std::filesystem::path& out) {
   if (out == "-") return OutputKind::RawPipe;

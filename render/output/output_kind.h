@@ -20,6 +20,9 @@ enum class OutputKind : std::uint8_t {
   PngSequence, ///< a printf pattern that ends in .png
 };
 
+/// A name's ending, ".mp4", in lower case.
+std::string lowerCaseEnding(const std::filesystem::path& out);
+
 /// By the name's ending, upper or lower case. Throws Error(BadInput) for another ending, and for a .png
 /// without a place for a number.
 OutputKind outputKind(const std::filesystem::path& out);

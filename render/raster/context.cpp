@@ -12,6 +12,8 @@
 namespace offstage {
 namespace {
 
+constexpr const char* kDriver = "llvmpipe";
+
 /// Mesa 22.3 crashes while it compiles shaders for vectors of 512 bits, on any processor. Fewer bits give the
 /// same pixels.
 void limitVectorWidth() {
@@ -24,7 +26,7 @@ void setMesaDefaults() {
   limitVectorWidth();
   setenv("LP_NUM_THREADS", "0", 0);        // llvmpipe's own threads: parallelism is processes here
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 0); // EGL must not pick a GPU's driver: other pixels
-  setenv("GALLIUM_DRIVER", "llvmpipe", 0);
+  setenv("GALLIUM_DRIVER", kDriver, 0);
 }
 
 constexpr std::string_view kInstallHint =
@@ -36,6 +38,12 @@ std::string_view wantedBackend() {
 }
 
 } // namespace
+
+std::string glDriver() {
+  if (wantedBackend() == "egl-device") return "egl-device";
+  const char* driver = std::getenv("GALLIUM_DRIVER");
+  return driver == nullptr || *driver == '\0' ? kDriver : driver;
+}
 
 bool prepareGl() {
   if (wantedBackend() != "auto" && wantedBackend() != "osmesa") return false;

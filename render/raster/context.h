@@ -28,6 +28,10 @@ public:
 /// Throws Error(Environment) naming the Debian packages when there is none, Error(BadInput) on another value.
 std::unique_ptr<GlContext> makeGlContext();
 
+/// What draws the pixels: "llvmpipe" unless the user has chosen another driver of Mesa (GALLIUM_DRIVER) or a
+/// graphics processor ("egl-device"). Pixels of different drivers may differ.
+std::string glDriver();
+
 /// Loads the library that makeGlContext() will most likely use, and makes nothing with it: processes that are
 /// forked afterwards share its memory (of LLVM alone 8 MB that the loader has written to) and the time that
 /// loading takes. Does nothing where it is missing, or another one is asked for. May be called from a thread
