@@ -67,10 +67,13 @@ TEST(OutputPlaces, WhatAVideoIsMadeFromIsNotReplacedByIt) {
   dir.write("a.dt", "20000000\n20000000\n");
   dir.write("told.toml", std::string(kBall) + "[narration]\nfile = \"told.mp4\"\n");
   ASSERT_EQ(renderIn(dir, {"s.toml", "-o", "told.mp4"}).status, 0);
+  ASSERT_EQ(renderIn(dir, {"s.toml", "--poster", "ball.png"}).status, 0);
+  dir.write("image.toml", std::string(kBall) + "fill = { image = \"ball.png\" }\n");
   const std::string told = readFile(dir / "told.mp4");
   for (const std::vector<std::string>& arguments :
        std::vector<std::vector<std::string>>{{"s.toml", "--hash", "s.toml"},
                                              {"s.toml", "--dt", "a.dt", "-o", "b.mp4", "--hash", "./a.dt"},
+                                             {"image.toml", "-o", "c.mp4", "--poster", "./ball.png"},
                                              {"told.toml", "-o", "told.mp4"}}) {
     const ProcessResult result = renderIn(dir, arguments);
     EXPECT_EQ(result.status, 2) << arguments.back() << result.err;

@@ -17,6 +17,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -111,6 +112,14 @@ void requireApart(const RenderOptions& options, const Scene& scene) {
   };
   narration(scene.timeline.narration);
   for (const Section& section : scene.timeline.sections) narration(section.narration);
+  const auto image = [&](const Paint& paint) {
+    if (const auto* pattern = std::get_if<ImagePattern>(&paint))
+      requireApart(options, "an image of the scene,", pattern->file);
+  };
+  for (const Look& look : scene.looks) {
+    if (look.fill) image(*look.fill);
+    if (look.stroke) image(look.stroke->paint);
+  }
   if (options.dtLog) requireApart(options, "--dt", *options.dtLog);
   if (options.input) requireApart(options, "--input", *options.input);
   const bool captions = !scene.timeline.captions.empty() || !scene.timeline.eventCaptions.empty();
