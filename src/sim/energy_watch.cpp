@@ -83,22 +83,24 @@ std::optional<Warning> EnergyWatch::find(const World& world) {
   double bound = 0.0;
   double mass = 0.0;
   const Body* fastest = nullptr;
-  double most = 0.0; // kinetic, of the fastest
-  auto before = known_.begin();
+  double most = 0.0;      // kinetic, of the fastest
+  std::size_t before = 0; // in known_
   std::size_t stayed = 0;
   now_.clear();
+  drivenNow_.clear();
   for (const Body& body : snapshot.bodies) { // both are in order of id
     const double motion = kinetic(body);
-    Known known{.id = body.id, .energy = motion + potentialEnergy(body, snapshot), .position = body.position};
-    if (isDriven_) known.driven = drivenBy(world, now_.size());
-    while (before != known_.end() && before->id < body.id) ++before;
-    if (before != known_.end() && before->id == body.id) {
-      change += known.energy - before->energy;
+    Known known{.id = body.id, .energy = motion + potentialEnergy(body, snapshot)};
+    if (isDriven_) drivenNow_.push_back({body.position, drivenBy(world, now_.size())});
+    while (before < known_.size() && known_[before].id < body.id) ++before;
+    if (before < known_.size() && known_[before].id == body.id) {
+      change += known.energy - known_[before].energy;
       if (isDriven_) {
-        const Vec2 way = body.position - before->position;
-        change -= 0.5 * body.mass * dot(before->driven + known.driven, way);
+        const Driven& was = driven_[before];
+        const Vec2 way = body.position - was.position;
+        change -= 0.5 * body.mass * dot(was.acceleration + drivenNow_.back().acceleration, way);
       }
-      known.bound = before->bound;
+      known.bound = known_[before].bound;
       ++stayed;
     } else {
       known.bound = boundOf(body, snapshot, world.setup().pane);
@@ -106,7 +108,7 @@ std::optional<Warning> EnergyWatch::find(const World& world) {
     }
     now_.push_back(known);
     moving += motion;
-    if (isDriven_) moving += body.mass * dot(known.driven.cwiseAbs(), world.setup().pane);
+    if (isDriven_) moving += body.mass * dot(drivenNow_.back().acceleration.cwiseAbs(), world.setup().pane);
     for (const Force& force : snapshot.forces)
       if (std::holds_alternative<SpringForce>(force.kind)) moving += potentialEnergy(force, body, snapshot);
     bound += known.bound;
@@ -121,6 +123,7 @@ std::optional<Warning> EnergyWatch::find(const World& world) {
       !slides_.empty() && std::any_of(world.events().begin(), world.events().end(),
                                       [&](const Event& event) { return isSlide(world, event); });
   known_.swap(now_);
+  driven_.swap(drivenNow_);
   sum_ += sameBodies && !slid ? change : std::min(change, 0.0);
   lowest_ = std::min(lowest_, sum_);
   const double gained = sum_ - lowest_;

@@ -51,9 +51,12 @@ public:
 private:
   struct Known {
     std::uint32_t id = 0;
-    double energy = 0.0;                                 ///< in the last frame
-    double bound = 0.0;                                  ///< its part of `usual` that stays
-    Vec2 position = Vec2::Zero(), driven = Vec2::Zero(); ///< px, and px/s² by forces that do work
+    double energy = 0.0; ///< in the last frame
+    double bound = 0.0;  ///< its part of `usual` that stays
+  };
+  /// Where a body was in the last frame (px), and what forces that do work accelerated it by (px/s²).
+  struct Driven {
+    Vec2 position = Vec2::Zero(), acceleration = Vec2::Zero();
   };
   [[nodiscard]] bool isSlide(const World& world, const Event& event) const;
   static double boundOf(const Body& body, const Snapshot& snapshot, const Vec2& pane);
@@ -66,8 +69,9 @@ private:
   std::vector<Motion> everyone_;
   EnergyGrowth causes_;
   std::vector<ContactRule> slides_;
-  std::vector<Known> known_, now_; ///< by id, in the last frame and in this one
-  double sum_ = 0.0;               ///< E, from 0 on
+  std::vector<Known> known_, now_;         ///< by id, in the last frame and in this one
+  std::vector<Driven> driven_, drivenNow_; ///< the same, where isDriven_
+  double sum_ = 0.0;                       ///< E, from 0 on
   double lowest_ = 0.0;
   double moving_ = 0.0; ///< the first part of `usual`
 };

@@ -13,6 +13,17 @@ void rub(double most, double& speed) {
   speed -= std::clamp(speed, -most, most);
 }
 
+/// Whether a body touches no edge, as most do not.
+bool isInside(const Vec2& pane, const Body& body) {
+  const Vec2& at = body.position;
+  const bool circle = body.shape == Shape::Circle;
+  const double before = circle ? body.radius : 0.0;
+  const double right = circle ? body.radius : body.size.x();
+  const double lower = circle ? body.radius : body.size.y();
+  return at.x() - before > 0.0 && at.y() - before > 0.0 && at.x() + right < pane.x() &&
+         at.y() + lower < pane.y();
+}
+
 } // namespace
 
 Reach reachOf(const Body& body, int axis) {
@@ -24,6 +35,7 @@ void bounceOffWalls(const Walls& walls, const Vec2& pane, Body& body, const Even
                     std::vector<Event>& events) {
   static constexpr std::array<EventKind, 4> kKinds{EventKind::Left, EventKind::Right, EventKind::Top,
                                                    EventKind::Bottom};
+  if (isInside(pane, body)) return;
   for (std::size_t side = 0; side < kKinds.size(); ++side) {
     const std::optional<double>& k = walls.restitution[side];
     if (!k) continue;
