@@ -100,7 +100,8 @@ std::vector<Begun> makeAll(std::int64_t frames, std::chrono::microseconds step, 
   SharedState state(plan.chunks());
   std::vector<std::int64_t> chunks(static_cast<std::size_t>(plan.chunks()));
   std::iota(chunks.begin(), chunks.end(), 0);
-  makeChunksWithWorkers({schedule, plan, output, parts, state, false}, chunks, source, jobs, [] {});
+  static_cast<void>(
+      makeChunksWithWorkers({schedule, plan, output, parts, state, false}, chunks, source, jobs, [] {}));
   EXPECT_EQ(state.frames(), frames);
   parts.removeAll();
 

@@ -79,6 +79,7 @@ public:
     const auto watch = [&](std::int64_t /*joined*/) { progress.update(state_.frames(), state_.bytes()); };
     const std::int64_t bytes = options_.segment ? state_.bytes() : join(parts, watch);
     if (!options_.hashFile.empty()) writeHashes(parts);
+    ending_.reset(); // they hold the lock, too
     if (!options_.segment) parts.removeAll();
     progress.finish(bytes);
     return {frames, seconds(), elapsed(), bytes};
@@ -173,7 +174,7 @@ private:
     try {
       const int jobs = options_.jobs.value_or(availableProcessors());
       if (jobs > 0) {
-        makeChunksWithWorkers(job, missing, source_, jobs, tick);
+        ending_ = makeChunksWithWorkers(job, missing, source_, jobs, tick);
       } else if (!missing.empty()) {
         FrameMaker frames(source_, schedule_);
         for (const std::int64_t chunk : missing) makeChunk(job, chunk, frames, tick);
@@ -248,6 +249,7 @@ private:
   std::int64_t endChunk_;
   std::unique_ptr<ChunkedOutput> output_;
   SharedState state_;
+  std::shared_ptr<void> ending_;   ///< the workers, while the parts are joined
   std::optional<Sidecar> sidecar_; ///< where there are captions
   std::string said_;               ///< of the output's notice
 };

@@ -47,7 +47,8 @@ bool SharedState::claimed(std::int64_t index) const {
   return chunk(index).claimed;
 }
 
-void SharedState::releaseClaims() {
+void SharedState::beginRound() {
+  header().made = 0;
   for (std::int64_t index = 0; index < chunks_; ++index) chunk(index).claimed = false;
 }
 

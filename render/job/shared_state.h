@@ -27,7 +27,9 @@ public:
   /// Takes a chunk for the calling process; false when it is taken.
   bool claim(std::int64_t chunk);
   [[nodiscard]] bool claimed(std::int64_t chunk) const;
-  void releaseClaims(); ///< of all chunks
+  /// Counts a chunk that is made; how many are now.
+  std::int64_t countMade() { return ++header().made; }
+  void beginRound(); ///< nothing is claimed, nothing counted
 
   /// s: how long the simulation takes for a frame, as the process that steps ahead has found; 0 before.
   void setStepSeconds(double seconds) { header().stepSeconds = seconds; }
@@ -47,6 +49,7 @@ private:
     std::atomic<int> errorState; ///< 0 none, 1 being written, 2 there
     std::atomic<int> signal;
     std::atomic<double> stepSeconds;
+    std::atomic<std::int64_t> made;
     int code;
     std::size_t length;
     char text[8192];

@@ -13,6 +13,7 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <malloc.h>
+#include <memory>
 #include <optional>
 #include <poll.h>
 #include <sys/wait.h>
@@ -37,6 +38,7 @@ constexpr double kWorkerStart = 0.1;
 constexpr int kLargeBlock = 1 << 17;
 
 /// A pipe whose writing end every process of a round holds: its reading end ends when all of them have.
+/// Through it the last chunk's worker tells that it has made it.
 class LifeLine {
 public:
   LifeLine() {
@@ -51,10 +53,27 @@ public:
   LifeLine& operator=(const LifeLine&) = delete;
 
   void letGo() { closeEnd(1); } ///< in the parent, after the fork
-  /// Whether every process has ended; waits so long at most.
-  [[nodiscard]] bool ended(int milliseconds) const {
+
+  void tellMade() const {
+    const char word = 0;
+    while (write(ends_[1], &word, 1) < 0 && errno == EINTR) {
+    }
+  }
+  enum class State { Working, Made, Ended };
+  /// Whether every chunk is made, or every process has ended; waits so long at most.
+  [[nodiscard]] State watch(int milliseconds) const {
     pollfd entry{ends_[0], POLLIN, 0};
-    return poll(&entry, 1, milliseconds) > 0 && (entry.revents & POLLHUP) != 0;
+    char word = 0;
+    if (poll(&entry, 1, milliseconds) <= 0) return State::Working;
+    return read(ends_[0], &word, 1) > 0 ? State::Made : State::Ended;
+  }
+  /// Waits until every process has ended.
+  void awaitEnd() const {
+    char word = 0;
+    while (true) {
+      const ssize_t got = read(ends_[0], &word, 1);
+      if (got == 0 || (got < 0 && errno != EINTR)) return;
+    }
   }
 
 private:
@@ -68,8 +87,9 @@ private:
 /// The side of a worker: it makes one chunk, and more while that is cheaper than another worker.
 class Worker {
 public:
-  Worker(const ChunkJob& job, const std::vector<std::int64_t>& chunks, Source& source, int jobs)
-      : job_(job), chunks_(chunks), source_(source), jobs_(jobs) {}
+  Worker(const ChunkJob& job, const std::vector<std::int64_t>& chunks, Source& source, int jobs,
+         const LifeLine& line)
+      : job_(job), chunks_(chunks), source_(source), jobs_(jobs), line_(line) {}
 
   /// Ends the process: what its GL context and the encoder's libraries hold goes with it, sooner than piece
   /// by piece.
@@ -78,8 +98,10 @@ public:
     // took 446 MB instead of 399 for a minute at 1080p.
     mallopt(M_MMAP_THRESHOLD, kLargeBlock);
     FrameMaker frames(source_, job_.schedule);
-    for (std::optional<std::int64_t> chunk = first; chunk; chunk = next(*chunk))
+    for (std::optional<std::int64_t> chunk = first; chunk; chunk = next(*chunk)) {
       makeChunk(job_, *chunk, frames);
+      if (job_.state.countMade() == static_cast<std::int64_t>(chunks_.size())) line_.tellMade();
+    }
     _exit(0);
   }
 
@@ -110,13 +132,15 @@ private:
   const std::vector<std::int64_t>& chunks_;
   Source& source_;
   int jobs_;
+  const LifeLine& line_;
 };
 
 /// The simulating process's side: it steps, and forks workers.
 class Simulator {
 public:
-  Simulator(const ChunkJob& job, const std::vector<std::int64_t>& chunks, Source& source, int jobs)
-      : job_(job), chunks_(chunks), source_(source), jobs_(jobs) {}
+  Simulator(const ChunkJob& job, const std::vector<std::int64_t>& chunks, Source& source, int jobs,
+            const LifeLine& line)
+      : job_(job), chunks_(chunks), source_(source), jobs_(jobs), line_(line) {}
 
   void run() {
     preloadGl(); // once for all workers
@@ -147,7 +171,7 @@ private:
   void start(std::int64_t chunk) {
     while (true) {
       try {
-        forkChild(job_.state, [&] { Worker(job_, chunks_, source_, jobs_).run(chunk); });
+        forkChild(job_.state, [&] { Worker(job_, chunks_, source_, jobs_, line_).run(chunk); });
         ++workers_;
         return;
       } catch (const Error&) {
@@ -178,6 +202,7 @@ private:
   const std::vector<std::int64_t>& chunks_;
   Source& source_;
   int jobs_;
+  const LifeLine& line_;
   int workers_ = 0;
   std::chrono::duration<double> seconds_{}; ///< in steps
   std::int64_t steps_ = 0;
@@ -188,8 +213,8 @@ class Round {
 public:
   Round(const ChunkJob& job, const std::vector<std::int64_t>& chunks, Source& source, int jobs)
       : state_(job.state) {
-    job.state.releaseClaims();
-    simulator_ = forkChild(job.state, [&] { Simulator(job, chunks, source, jobs).run(); });
+    job.state.beginRound();
+    simulator_ = forkChild(job.state, [&] { Simulator(job, chunks, source, jobs, line_).run(); });
     line_.letGo();
   }
   /// Ends all of them, if they have not.
@@ -198,21 +223,23 @@ public:
       kill(simulator_, SIGKILL);
       waitFor(simulator_);
     }
-    while (!line_.ended(-1)) {
-    }
+    line_.awaitEnd();
   }
   Round(const Round&) = delete;
   Round& operator=(const Round&) = delete;
 
   void await(const std::function<void()>& tick) {
-    while (!line_.ended(kTickMs)) {
+    LifeLine::State now{};
+    while ((now = line_.watch(kTickMs)) == LifeLine::State::Working) {
       throwIfInterrupted();
       state_.rethrow();
       tick();
     }
-    const int status = waitFor(simulator_);
-    simulator_ = -1;
-    if (WIFSIGNALED(status)) state_.setSignal(WTERMSIG(status));
+    if (now == LifeLine::State::Ended) {
+      const int status = waitFor(simulator_);
+      simulator_ = -1;
+      if (WIFSIGNALED(status)) state_.setSignal(WTERMSIG(status));
+    }
     throwIfInterrupted();
     state_.rethrow();
     tick();
@@ -243,16 +270,20 @@ std::vector<std::int64_t> withoutFile(const ChunkJob& job, const std::vector<std
 
 } // namespace
 
-void makeChunksWithWorkers(const ChunkJob& job, const std::vector<std::int64_t>& chunks, Source& source,
-                           int jobs, const std::function<void()>& tick) {
+std::shared_ptr<void> makeChunksWithWorkers(const ChunkJob& job, const std::vector<std::int64_t>& chunks,
+                                            Source& source, int jobs, const std::function<void()>& tick) {
   std::vector<std::int64_t> missing = chunks;
+  std::shared_ptr<Round> round;
   for (int fruitless = 0; !missing.empty();) {
     if (fruitless == kMostFruitlessRounds) giveUp(job, missing.front());
-    Round(job, missing, source, jobs).await(tick);
+    round.reset(); // its processes end first
+    round = std::make_shared<Round>(job, missing, source, jobs);
+    round->await(tick);
     std::vector<std::int64_t> left = withoutFile(job, missing);
     fruitless = left.size() == missing.size() ? fruitless + 1 : 0;
     missing = std::move(left);
   }
+  return round;
 }
 
 } // namespace offstage

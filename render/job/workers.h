@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace offstage {
@@ -18,7 +19,12 @@ namespace offstage {
 /// Chunks whose worker was killed are made again. Throws Error(Transient) when three rounds in a row have not
 /// made a single chunk; the first error that a worker reports; Error when a signal has come (interrupt.h). No
 /// process of it is left then. `tick` is called about fifty times a second.
-void makeChunksWithWorkers(const ChunkJob& job, const std::vector<std::int64_t>& chunks, Source& source,
-                           int jobs, const std::function<void()>& tick);
+///
+/// Returns when the chunks are there. The processes may still be ending, which takes their memory some 10 ms;
+/// what is returned waits for that where it goes. job.state has to live until then.
+[[nodiscard]] std::shared_ptr<void> makeChunksWithWorkers(const ChunkJob& job,
+                                                          const std::vector<std::int64_t>& chunks,
+                                                          Source& source, int jobs,
+                                                          const std::function<void()>& tick);
 
 } // namespace offstage
