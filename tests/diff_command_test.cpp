@@ -51,6 +51,30 @@ protected:
   const Frame frame_ = lectureFrame(64, 48, 3);
 };
 
+TEST_F(DiffCommand, ReplacesNothingThatItCompares) {
+  const std::string a = put("a.png", frame_);
+  const std::string b = put("b.png", changed(frame_, 20, 30));
+  const std::string frames = folder("frames", 2, 2);
+  const std::string trace =
+      dir_.write("t.csv", "frame,id,time,x,y,vx,vy,radius,group\n0,0,0,1,2,3,4,5,\n").string();
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {a, b, "--strip", a},
+           {a, b, "--strip", path("frames/../b.png")},
+           {a, b, "--strip", path("x.png"), "--junit", path("x.png")},
+           {frames, frames, "--strip", path("frames/worst.png")},
+           {frames, path("frames/f%d.png"), "--strip", path("frames/f1.png")},
+           {trace, trace, "--junit", trace}}) {
+    std::vector<std::string> command{"diff"};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    const auto before = std::pair(readFile(a), readFile(b));
+    const ProcessResult result = offstage(command);
+    EXPECT_EQ(result.status, 2) << arguments.back() << "\n" << result.err;
+    EXPECT_THAT(result.err, HasSubstr("cannot b")) << arguments.back();
+    EXPECT_EQ(std::pair(readFile(a), readFile(b)), before) << arguments.back();
+  }
+  EXPECT_EQ(offstage({"diff", frames, frames, "--junit", path("frames/junit.xml")}).status, 0);
+}
+
 TEST_F(DiffCommand, ExitStatusSaysSameOrDifferent) {
   const std::string a = put("a.png", frame_);
   const std::string b = put("b.png", frame_);

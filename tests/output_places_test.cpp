@@ -60,6 +60,44 @@ TEST(OutputPlaces, TwoNamesOfOneFileThatIsNotThereYetAreOnePlace) {
   EXPECT_EQ(apart.status, 0) << apart.err; // there are no captions
 }
 
+TEST(OutputPlaces, NoCommandReplacesWhatTheSceneIsMadeWith) {
+  const TempDir dir;
+  const std::string bodies = "shape,x,y,radius\ncircle,20,20,9\n";
+  dir.write("bodies.csv", bodies);
+  dir.write("s.toml", "duration = 0.1\n[frame]\nsize = [64, 48]\n[[bodies]]\ntable = \"bodies.csv\"\n");
+  dir.write("recorded.csv", "20000000\n20000000\n");
+  dir.write("r.toml", "[frame]\nsize = [64, 48]\n[clock]\nrecorded = \"recorded.csv\"\n");
+  ASSERT_EQ(renderIn(dir, {"s.toml", "--poster", "ball.png"}).status, 0);
+  dir.write("image.toml", std::string(kBall) + "fill = { image = \"ball.png\" }\n");
+  dir.write("panels.toml",
+            std::string(kBall) + "[[panel]]\n[[panel.body]]\nshape = \"circle\"\ncenter = [9, 9]\nradius = "
+                                 "5\nfill = { image = \"ball.png\" }\n[[panel]]\n");
+  std::filesystem::copy_file("/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", dir / "font.ttf");
+  dir.write("text.toml", std::string(kBall) + "[[text]]\ntext = \"a\"\nfont = \"font.ttf\"\nat = [9, 9]\n");
+  ASSERT_EQ(offstage({"trace", dir / "image.toml", "-o", dir / "t.csv"}).status, 0);
+  dir.write("replay.toml", "[frame]\nsize = [64, 48]\n[replay]\ntrace = \"t.csv\"\n");
+  const std::vector<std::string> names = dir.names();
+  std::vector<std::string> before;
+  for (const std::string& name : names) before.push_back(readFile(dir / name));
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"trace", "s.toml", "-o", "./bodies.csv"},
+                                             {"trace", "s.toml", "-o", "x.csv", "--events", "bodies.csv"},
+                                             {"trace", "s.toml", "-o", "x.csv", "--events", "./x.csv"},
+                                             {"trace", "r.toml", "-o", "recorded.csv"},
+                                             {"still", "image.toml", "--at", "0", "-o", "ball.png"},
+                                             {"still", "panels.toml", "--at", "0", "-o", "ball.png"},
+                                             {"render", "text.toml", "--hash", "font.ttf"},
+                                             {"render", "replay.toml", "--hash", "t.csv"}}) {
+    ProcessOptions options;
+    options.directory = dir.path();
+    const ProcessResult result = offstage(arguments, options);
+    EXPECT_EQ(result.status, 2) << arguments[1] << " " << arguments.back() << result.err;
+    EXPECT_THAT(result.err, HasSubstr("cannot both be")) << arguments[1] << " " << arguments.back();
+    EXPECT_EQ(dir.names(), names) << arguments[1];
+    for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(readFile(dir / names[i]), before[i]) << names[i];
+  }
+}
+
 TEST(OutputPlaces, WhatAVideoIsMadeFromIsNotReplacedByIt) {
   const TempDir dir;
   const std::string text = std::string(kBall) + "[clock]\nfps = 50\n";

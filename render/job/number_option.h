@@ -34,7 +34,9 @@ CLI::Option* addNumber(CLI::App& app, const char* name, std::optional<T>& target
                                       std::is_integral_v<T> ? "a whole number" : "a finite number"));
             if (value < low || value > high)
               throw Error(ExitCode::BadInput,
-                          fmt::format("{} '{}' is not from {} to {}", name, text, low, high));
+                          high == std::numeric_limits<T>::max()
+                              ? fmt::format("{} '{}' is less than {}", name, text, low)
+                              : fmt::format("{} '{}' is not from {} to {}", name, text, low, high));
             target = value;
           },
           help)

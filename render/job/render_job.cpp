@@ -4,20 +4,19 @@
 #include "render/job/console.h"
 #include "render/job/frame_maker.h"
 #include "render/job/interrupt.h"
+#include "render/job/output_places.h"
 #include "render/job/sidecar.h"
 #include "render/output/atomic_file.h"
-#include "render/output/file_error.h"
-#include "render/output/frame_pattern.h"
 #include "render/output/output_kind.h"
 #include "render/output/sink.h"
 #include "src/sim/error.h"
 
+#include <array>
 #include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 
 #include <fmt/format.h>
 
@@ -65,26 +64,11 @@ RenderResult renderStream(Source& source, const RenderOptions& options) {
   return {schedule.frames(), schedule.seconds(), elapsed.count(), bytes()};
 }
 
-/// Two outputs in one place: the second would replace the first.
-void requireApart(std::string_view option, const std::filesystem::path& out, std::string_view otherOption,
-                  const std::filesystem::path& other) {
-  if (out.empty() || other.empty() || out == "-") return;
-  const std::filesystem::path place = placeOf(other);
-  bool same = placeOf(out) == place;
-  if (!same && option == "-o" && outputKind(out) == OutputKind::PngSequence) {
-    const FramePattern pattern(placeOf(out));
-    same = pattern.folder() == place.parent_path() && pattern.numberOf(place.filename().native()).has_value();
-  }
-  if (same)
-    throw Error(ExitCode::BadInput,
-                fmt::format("{} and {} cannot both be {}", option, otherOption, quoted(other)));
-}
-
-/// The scene and what it is made with: an output in its place would replace it.
-void requireApart(const RenderOptions& options, std::string_view what, const std::filesystem::path& input) {
-  requireApart("-o", options.out, what, input);
-  requireApart("--hash", options.hashFile, what, input);
-  requireApart("--poster", options.poster, what, input);
+/// Where the options' outputs go.
+std::array<OutputPlace, 3> placesOf(const RenderOptions& options) {
+  const bool isPattern =
+      !options.out.empty() && options.out != "-" && outputKind(options.out) == OutputKind::PngSequence;
+  return {{{"-o", options.out, isPattern}, {"--hash", options.hashFile}, {"--poster", options.poster}}};
 }
 
 } // namespace
@@ -99,33 +83,22 @@ void requireOutput(const RenderOptions& options) {
     throw Error(ExitCode::BadInput, "nothing to make: give -o OUT (or --hash FILE, or --poster FILE)");
   if (options.hashFile == "-")
     throw Error(ExitCode::BadInput, "--hash writes to a file, not to standard output");
-  requireApart("-o", options.out, "--hash", options.hashFile);
-  requireApart("-o", options.out, "--poster", options.poster);
-  requireApart("--hash", options.hashFile, "--poster", options.poster);
+  const auto [out, hash, poster] = placesOf(options);
+  requireApart(out, hash.option, hash.out);
+  requireApart(out, poster.option, poster.out);
+  requireApart(hash, poster.option, poster.out);
 }
 
 void requireApart(const RenderOptions& options, const Scene& scene) {
-  requireApart(options, "the scene", scene.file);
-  for (const auto& file : scene.files) requireApart(options, "a file that the scene reads,", file);
-  const auto narration = [&](const std::optional<SoundFile>& sound) {
-    if (sound) requireApart(options, sound->key, sound->file);
-  };
-  narration(scene.timeline.narration);
-  for (const Section& section : scene.timeline.sections) narration(section.narration);
-  const auto image = [&](const Paint& paint) {
-    if (const auto* pattern = std::get_if<ImagePattern>(&paint))
-      requireApart(options, "an image of the scene,", pattern->file);
-  };
-  for (const Look& look : scene.looks) {
-    if (look.fill) image(*look.fill);
-    if (look.stroke) image(look.stroke->paint);
-  }
-  if (options.dtLog) requireApart(options, "--dt", *options.dtLog);
-  if (options.input) requireApart(options, "--input", *options.input);
   const bool captions = !scene.timeline.captions.empty() || !scene.timeline.eventCaptions.empty();
-  if (!captions || options.out.empty()) return;
-  if (const auto sidecar = Sidecar::nameFor(options.out))
-    requireApart(options, "the captions' file", *sidecar);
+  for (const OutputPlace& output : placesOf(options)) {
+    if (options.dtLog) requireApart(output, "--dt", *options.dtLog);
+    if (options.input) requireApart(output, "--input", *options.input);
+    requireApart(output, scene);
+    if (!captions || options.out.empty()) continue;
+    if (const auto sidecar = Sidecar::nameFor(options.out))
+      requireApart(output, "the captions' file", *sidecar);
+  }
 }
 
 void printSummary(const RenderResult& result, const RenderOptions& options) {

@@ -31,8 +31,8 @@ RenderResult render(Source& source, const RenderOptions& options);
 /// each in a place of its own.
 void requireOutput(const RenderOptions& options);
 
-/// Throws Error(BadInput) when an output would replace the scene, a file that it is made with, or its
-/// captions' file.
+/// Throws Error(BadInput) when an output would replace the scene, a file that it is made with
+/// (output_places.h), or its captions' file.
 void requireApart(const RenderOptions& options, const Scene& scene);
 
 /// Prints what a command ends with, "out.mp4: 1200 frames, 20.000 s, in 3.21 s (6.2x real time), 812 KiB", to

@@ -1,7 +1,9 @@
 #include "render/compare/compare_files.h"
 #include "render/compare/trace_report.h"
 #include "render/job/number_option.h"
+#include "render/job/output_places.h"
 #include "render/output/atomic_file.h"
+#include "render/output/file_error.h"
 #include "render/output/png.h"
 #include "src/app/commands.h"
 #include "src/app/tolerance_options.h"
@@ -9,6 +11,7 @@
 
 #include <iostream>
 #include <memory>
+#include <utility>
 
 namespace offstage {
 namespace {
@@ -63,13 +66,33 @@ void writePng(const std::filesystem::path& path, const Frame& frame) {
   file.commit();
 }
 
+/// Throws Error(BadInput) when what is written would replace, or come to stand among, what is compared.
+void requireOutside(const OutputPlace& output, const Arguments& arguments) {
+  for (const auto& [what, input] :
+       {std::pair{"EXPECTED", arguments.expected}, {"ACTUAL", arguments.actual}}) {
+    requireApart(output, what, input);
+    if (inputKind(input) != InputKind::Sequence) continue;
+    if (!std::filesystem::is_directory(input))
+      requireApart({what, input, true}, output.option, output.out);
+    else if (output.out.extension() == ".png" && placeOf(output.out).parent_path() == placeOf(input))
+      throw Error(ExitCode::BadInput, fmt::format("{} {} cannot be among the pictures of {}", output.option,
+                                                  quoted(output.out), what));
+  }
+}
+
 int run(const Arguments& arguments, const CLI::App& verb) {
   // Before a long comparison.
   if (!arguments.strip.empty() && arguments.strip.extension() != ".png")
     throw Error(ExitCode::BadInput,
                 fmt::format("--strip '{}' is a PNG; end its name in .png", arguments.strip.string()));
-  for (const std::filesystem::path& file : {arguments.strip, arguments.junit})
-    if (!file.empty()) requireWritable(file);
+  const OutputPlace strip{"--strip", arguments.strip};
+  const OutputPlace junit{"--junit", arguments.junit};
+  requireApart(strip, junit.option, junit.out);
+  for (const OutputPlace& output : {strip, junit}) {
+    if (output.out.empty()) continue;
+    requireOutside(output, arguments);
+    requireWritable(output.out);
+  }
   if (!arguments.html.empty()) requireReportFolder(arguments.html);
 
   const CompareResult result = compare(arguments, verb);

@@ -2,6 +2,7 @@
 
 #include "render/job/command_line.h"
 #include "render/job/interrupt.h"
+#include "render/job/output_places.h"
 #include "render/job/warning_log.h"
 #include "render/output/text_output.h"
 #include "src/app/commands.h"
@@ -74,8 +75,12 @@ void addTrace(CLI::App& app, Action& action) {
       if (arguments->summary && ((withTrace && arguments->out == "-") || arguments->events == "-"))
         throw Error(ExitCode::BadInput,
                     "the summary goes to the standard output, so the trace and its events cannot");
+      const OutputPlace trace{"-o", withTrace ? arguments->out : ""};
+      const OutputPlace ofEvents{"--events", arguments->events};
+      requireApart(trace, ofEvents.option, ofEvents.out);
       const Scene scene = loadScene(arguments->scene, arguments->options.sceneOverrides());
-
+      requireApart(trace, scene);
+      requireApart(ofEvents, scene);
       if (scene.replay)
         throw Error(ExitCode::BadInput, fmt::format("{} simulates nothing: it replays the trace {}",
                                                     arguments->scene.string(), scene.replay->trace.file));

@@ -81,6 +81,7 @@ void parseClock(SceneBuilder& builder, const TomlValue* table, const TableReader
     if (!log) return;
   }
   if (log) {
+    builder.scene.files.push_back(*log);
     const auto recording = readRecording(*log, builder.errors);
     if (!recording) return;
     builder.scene.clock = hasDuration ? recording->truncated(recording->frameAt(duration)) : *recording;
