@@ -69,9 +69,9 @@ TEST(OutputPlaces, NoCommandReplacesWhatTheSceneIsMadeWith) {
   dir.write("r.toml", "[frame]\nsize = [64, 48]\n[clock]\nrecorded = \"recorded.csv\"\n");
   ASSERT_EQ(renderIn(dir, {"s.toml", "--poster", "ball.png"}).status, 0);
   dir.write("image.toml", std::string(kBall) + "fill = { image = \"ball.png\" }\n");
-  dir.write("panels.toml",
-            std::string(kBall) + "[[panel]]\n[[panel.body]]\nshape = \"circle\"\ncenter = [9, 9]\nradius = "
-                                 "5\nfill = { image = \"ball.png\" }\n[[panel]]\n");
+  dir.write("panels.toml", std::string(kBall) +
+                               "[[panel]]\n[[panel.body]]\nshape = \"circle\"\ncenter = [9, 9]\nradius = "
+                               "5\nfill = { image = \"ball.png\" }\n[[panel]]\n");
   std::filesystem::copy_file("/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", dir / "font.ttf");
   dir.write("text.toml", std::string(kBall) + "[[text]]\ntext = \"a\"\nfont = \"font.ttf\"\nat = [9, 9]\n");
   ASSERT_EQ(offstage({"trace", dir / "image.toml", "-o", dir / "t.csv"}).status, 0);
@@ -95,6 +95,21 @@ TEST(OutputPlaces, NoCommandReplacesWhatTheSceneIsMadeWith) {
     EXPECT_THAT(result.err, HasSubstr("cannot both be")) << arguments[1] << " " << arguments.back();
     EXPECT_EQ(dir.names(), names) << arguments[1];
     for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(readFile(dir / names[i]), before[i]) << names[i];
+  }
+}
+
+TEST(OutputPlaces, ANameThatCannotBeIsToldWithItsReason) {
+  const TempDir dir;
+  dir.write("s.toml", kBall);
+  std::filesystem::create_symlink("there", dir / "here");
+  std::filesystem::create_symlink("here", dir / "there");
+  const std::string longName(252, 'a');
+  for (const auto& [out, reason] : {std::pair{longName + ".mp4", "the name is too long"},
+                                    {longName + "%05d.png", "the name is too long"},
+                                    {"here/x.mp4", "its symbolic links lead in a circle"}}) {
+    const ProcessResult result = renderIn(dir, {"s.toml", "-o", out});
+    EXPECT_EQ(result.status, 2) << out;
+    EXPECT_THAT(result.err, HasSubstr(std::string("': ") + reason)) << out;
   }
 }
 

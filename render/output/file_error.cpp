@@ -77,7 +77,10 @@ std::string_view shortened(std::string_view name, std::size_t most) {
 }
 
 std::filesystem::path placeOf(const std::filesystem::path& path) {
-  return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+  const std::filesystem::path whole = std::filesystem::absolute(path);
+  std::error_code error; // a name too long, a loop of links: whoever opens it will say so
+  std::filesystem::path place = std::filesystem::weakly_canonical(whole, error);
+  return error ? whole.lexically_normal() : place;
 }
 
 std::filesystem::path folderOf(const std::filesystem::path& path) {
