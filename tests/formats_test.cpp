@@ -258,6 +258,17 @@ TEST(Apng, VariableRateFollowsTheRecordingToTheMillisecond) {
   EXPECT_EQ(compareFrames(frames[1].frame, lectureFrame(40, 30, 3)).worst, 0);
 }
 
+TEST(Apng, AFrameMayLastLong) {
+  const TempDir dir;
+  writeOutput(dir / "a.apng", formatOf(40, 30, 0.0),
+              timingsOf({65535000000, 65536000000, 700123000000, 20000000}));
+  const std::vector<ShownFrame> frames = decodeFrames(dir / "a.apng");
+  ASSERT_EQ(frames.size(), 4U);
+  EXPECT_NEAR(frames[1].start, 65.535, 1e-6);  // in thousandths of a second
+  EXPECT_NEAR(frames[2].start, 131.075, 1e-6); // 65.54 s later: in hundredths
+  EXPECT_NEAR(frames[3].start, 831.175, 1e-6); // 700.1 s later: in tenths
+}
+
 TEST(Quality, EachLevelIsCloserToTheFramesAndHasALargerFile) {
   const TempDir dir;
   double worse = 255.0;

@@ -136,10 +136,15 @@ std::int64_t ApngOutput::join(std::span<const std::filesystem::path> chunks, std
     tellJoined(patch.timing.index + 1);
     const std::int64_t ticks =
         byIndex_ ? 1 : millisecondOf(patch.timing.end) - millisecondOf(patch.timing.start);
-    if (ticks * tick_ > kMostDelayTerm) {
+    // A frame that is too long for thousandths of a second is told in hundredths, tenths or seconds.
+    std::int64_t delay = ticks * tick_;
+    int perSecond = ticksPerSecond_;
+    for (; delay > kMostDelayTerm && perSecond % 10 == 0; perSecond /= 10) delay = (delay + 5) / 10;
+    if (delay > kMostDelayTerm) {
       throw Error(ExitCode::BadInput,
-                  fmt::format("{}: frame {} lasts {:.1f} s; an .apng's frame lasts at most 65 s",
-                              quoted(path_), patch.timing.index, static_cast<double>(ticks) / 1000.0));
+                  fmt::format("{}: frame {} lasts {:.1f} s; an .apng's frame lasts at most {} s",
+                              quoted(path_), patch.timing.index, static_cast<double>(ticks) / 1000.0,
+                              kMostDelayTerm));
     }
     std::array<std::uint8_t, 26> frame{};
     storeBigEndian(frame.data(), sequence++);
@@ -147,8 +152,8 @@ std::int64_t ApngOutput::join(std::span<const std::filesystem::path> chunks, std
     storeBigEndian(frame.data() + 8, asUnsigned(patch.rect.bottom - patch.rect.top));
     storeBigEndian(frame.data() + 12, asUnsigned(patch.rect.left));
     storeBigEndian(frame.data() + 16, asUnsigned(patch.rect.top));
-    storeBigEndian16(frame.data() + 20, static_cast<std::uint16_t>(ticks * tick_));
-    storeBigEndian16(frame.data() + 22, static_cast<std::uint16_t>(ticksPerSecond_));
+    storeBigEndian16(frame.data() + 20, static_cast<std::uint16_t>(delay));
+    storeBigEndian16(frame.data() + 22, static_cast<std::uint16_t>(perSecond));
     frame[24] = 0;                     // the frame stays for the next
     frame[25] = format_.alpha ? 0 : 1; // replaces the pixels, or lies over them
     png.add("fcTL", frame);
