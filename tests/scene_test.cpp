@@ -258,6 +258,28 @@ TEST(Scene, SpawnsTakeConstantsPairsAndEveryGenerator) {
   EXPECT_EQ(spawner.prototype.spawner, 0U);
 }
 
+TEST(Scene, WhatAPairOfASpawnHoldsMayBeRandom) {
+  const Scene scene = sceneOf("[[spawn]]\ncenter = [{ int = 640 }, 7]\nradius = 3\nvelocity = [{ spread = 1 "
+                              "}, { uniform = [2, 4] }]\n"
+                              "restitution = { uniform = [0.5, 1] }\nfriction = 0.25\n");
+  const Spawner& spawner = scene.world.spawners[0];
+  EXPECT_EQ(std::get<IntegerNumber>(spawner.x).bound, 640);
+  EXPECT_EQ(constantOf(spawner.y), 7.0);
+  EXPECT_EQ(std::get<SpreadNumber>(spawner.vx).half, 1.0);
+  EXPECT_EQ(std::get<UniformNumber>(spawner.vy).high, 4.0);
+  EXPECT_EQ(std::get<UniformNumber>(spawner.restitution.value()).low, 0.5);
+  EXPECT_EQ(constantOf(spawner.friction.value()), 0.25);
+  EXPECT_THAT(errorsOf("[[spawn]]\ncenter = [1]\nradius = 3\nvelocity = [{ int = 0 }, \"2\"]\nrestitution = "
+                       "{ uniform = [0, 2] }\n"),
+              ::testing::ElementsAre(
+                  ::testing::HasSubstr("2:10: error: 'center' in [[spawn]] must be an array of 2 numbers, "
+                                       "each of which may be random"),
+                  ::testing::HasSubstr("4:21: error: 'velocity.int' in [[spawn]] must be"),
+                  ::testing::HasSubstr(
+                      "4:26: error: value 2 of 'velocity' in [[spawn]] must be a number or a random number"),
+                  ::testing::HasSubstr("5:31: error: value 2 of 'restitution.uniform' in [[spawn]]")));
+}
+
 TEST(Scene, ForcesOfEveryType) {
   const Scene scene = sceneOf(
       "[[body]]\nname = \"sun\"\ncenter = [0, 0]\nradius = 1\n[[body]]\nname = \"b\"\ngroup = \"g\"\n"

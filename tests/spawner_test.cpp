@@ -90,6 +90,8 @@ TEST(Spawner, DrawsItsFieldsInTheDocumentedOrder) {
   spawner.ax = IntegerNumber{7};
   spawner.ay = UniformNumber{-1.0, 1.0};
   spawner.mass = UniformNumber{1.0, 3.0};
+  spawner.restitution = UniformNumber{0.5, 1.0};
+  spawner.friction = GaussianNumber{2.0, 0.25};
   spawner.when = Spawner::When::AfterUpdate;
   const World world = run(setupWith(spawner), 1, 2);
   Random random(2022);
@@ -104,6 +106,8 @@ TEST(Spawner, DrawsItsFieldsInTheDocumentedOrder) {
     const double ax = random.nextInt(7);
     const double ay = -1.0 + random.nextDouble() * (1.0 - -1.0);
     const double mass = 1.0 + random.nextDouble() * (3.0 - 1.0);
+    const double restitution = 0.5 + random.nextDouble() * (1.0 - 0.5);
+    const double friction = 2.0 + random.nextGaussian() * 0.25;
     if (n == 0) continue; // the first has moved since; the second was made after the last update
     const Body& body = world.bodies()[1];
     EXPECT_EQ(body.position, Vec2(x, y));
@@ -112,6 +116,8 @@ TEST(Spawner, DrawsItsFieldsInTheDocumentedOrder) {
     EXPECT_EQ(body.velocity, Vec2(vx, vy));
     EXPECT_EQ(body.acceleration, Vec2(ax, ay));
     EXPECT_EQ(body.mass, mass);
+    EXPECT_EQ(body.restitution, restitution);
+    EXPECT_EQ(body.friction, friction);
   }
 }
 
@@ -119,9 +125,13 @@ TEST(Spawner, ImpossibleDrawsBecomeTheSmallestPossible) {
   Spawner spawner = everySecond();
   spawner.radius = ConstantNumber{-3.0};
   spawner.mass = ConstantNumber{0.0};
+  spawner.restitution = ConstantNumber{1.5};
+  spawner.friction = ConstantNumber{-1.0};
   const World world = run(setupWith(spawner), 1, 1);
   EXPECT_EQ(world.bodies()[0].radius, 0.0);
   EXPECT_EQ(world.bodies()[0].mass, 1e-9);
+  EXPECT_EQ(world.bodies()[0].restitution, 1.0);
+  EXPECT_EQ(world.bodies()[0].friction, 0.0);
 }
 
 TEST(Spawner, GivesItsLooksInTurnAndItsNumberToItsBodies) {

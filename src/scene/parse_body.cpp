@@ -34,9 +34,12 @@ void readCommonProperties(SceneBuilder& builder, const TableReader& reader, Body
   if (group == "*") reader.reject("group", "cannot be \"*\", which stands for all groups in [[collide]]");
   body.group = builder.addGroup(group);
   body.removedOutside = reader.choice("leaving", kLeavings);
-  body.restitution = reader.number("restitution", Range::between(0.0, 1.0));
   body.continuous = reader.boolean("continuous");
-  body.friction = reader.number("friction", Range::atLeast(0.0));
+}
+
+void readSurface(const TableReader& reader, Body& body) {
+  body.restitution = reader.number("restitution", kRestitutions);
+  body.friction = reader.number("friction", kFrictions);
 }
 
 bool readBodyProperties(SceneBuilder& builder, const TableReader& reader, Body& body) {
@@ -65,6 +68,7 @@ void rejectKeysOfOtherShape(const TableReader& reader, Shape shape,
 Body readBody(SceneBuilder& builder, const TableReader& reader, BodyNumbers& numbers) {
   Body body;
   const bool shapeKnown = readBodyProperties(builder, reader, body);
+  readSurface(reader, body);
   body.look = readLooks(builder, reader, body, false).front();
   if (shapeKnown) {
     rejectKeysOfOtherShape(reader, body.shape, {"center", "radius"}, {"position", "size"});

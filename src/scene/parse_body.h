@@ -47,8 +47,13 @@ bool isFinite(const Body& body);
 /// Makes a name known that is not empty. False when it is another body's.
 bool addBodyName(SceneBuilder& builder, const std::string& name, std::uint32_t id, std::uint32_t line);
 
-/// Those of them that [[launch]] shares: group, leaving, restitution, friction, continuous.
+/// Those of them that [[launch]] shares: group, leaving, continuous.
 void readCommonProperties(SceneBuilder& builder, const TableReader& reader, Body& body);
+
+/// Restitution and friction, which only of a [[spawn]] may be random.
+void readSurface(const TableReader& reader, Body& body);
+inline const Range kRestitutions = Range::between(0.0, 1.0);
+inline const Range kFrictions = Range::atLeast(0.0);
 
 /// Reports each given key that belongs to the other shape.
 void rejectKeysOfOtherShape(const TableReader& reader, Shape shape,

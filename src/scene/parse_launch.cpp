@@ -108,6 +108,7 @@ void parseLaunch(SceneBuilder& builder, const TomlValue& table) {
 
   Body& body = launch.prototype;
   readCommonProperties(builder, reader, body);
+  readSurface(reader, body);
   body.feelsGravity = false;
   body.integrator = builder.integrator;
   body.radius = builder.view.length()(reader.number("radius", Range::atLeast(0.0)));

@@ -85,7 +85,13 @@ public:
   Number read(std::string_view key, Range allowed, const AffineMap& map, double fallback) const {
     const TomlValue* value = reader_.find(key);
     if (value == nullptr) return ConstantNumber{fallback};
-    const auto number = readInSceneUnits(*value, key, allowed);
+    return readValue(*value, key, reader_.described(key), allowed, map, fallback);
+  }
+
+  /// The number of a value of the key, which `what` names in messages.
+  Number readValue(const TomlValue& value, std::string_view key, const std::string& what, Range allowed,
+                   const AffineMap& map, double fallback) const {
+    const auto number = readInSceneUnits(value, key, what, allowed);
     if (!number) return ConstantNumber{fallback};
     const auto result = mapped(*number, map);
     if (!result) {
@@ -97,7 +103,7 @@ public:
     return *result;
   }
 
-  /// Two numbers that may also be given as one constant pair: x and y or center, vx and vy or velocity.
+  /// Two numbers that may also be given as one pair: x and y or center, vx and vy or velocity.
   /// Returns whether the pair was given.
   bool readPair(std::string_view pairKey, std::string_view firstKey, std::string_view secondKey,
                 Range allowed, const AffineMap& firstMap, const AffineMap& secondMap, Number& first,
@@ -108,10 +114,20 @@ public:
     if (!reader_.has(pairKey)) return false;
     reader_.rejectBoth(firstKey, pairKey);
     reader_.rejectBoth(secondKey, pairKey);
-    const auto pair = reader_.pair(pairKey, allowed);
-    first = ConstantNumber{firstMap(pair[0])};
-    second = ConstantNumber{secondMap(pair[1])};
-    if (!isFinite(first) || !isFinite(second)) reader_.reject(pairKey, "is too large for this [view]");
+    const TomlValue& value = *reader_.find(pairKey);
+    const TomlValue::Array* both = value.array();
+    if (both == nullptr || both->size() != 2) {
+      reportMismatch(value, reader_.described(pairKey), "an array of 2 numbers, each of which may be random",
+                     builder_.errors);
+      return true;
+    }
+    const auto one = [&](std::size_t index, const AffineMap& map) {
+      return readValue((*both)[index], pairKey,
+                       fmt::format("value {} of {}", index + 1, reader_.described(pairKey)), allowed, map,
+                       0.0);
+    };
+    first = one(0, firstMap);
+    second = one(1, secondMap);
     return true;
   }
 
@@ -131,8 +147,8 @@ public:
   }
 
 private:
-  std::optional<Number> readInSceneUnits(const TomlValue& value, std::string_view key, Range allowed) const {
-    const std::string what = reader_.described(key);
+  std::optional<Number> readInSceneUnits(const TomlValue& value, std::string_view key,
+                                         const std::string& what, Range allowed) const {
     if (value.table() != nullptr) {
       const TableReader keys(value, {"random"}, reader_.label(), builder_.errors, std::string(key) + '.');
       return readGenerator(keys, what, allowed);
@@ -188,6 +204,9 @@ void parseSpawn(SceneBuilder& builder, const TomlValue& table) {
   numbers.readPair("acceleration", "ax", "ay", Range::any(), view.vectorX(), view.vectorY(), spawner.ax,
                    spawner.ay);
   spawner.mass = numbers.read("mass", Range::above(0.0), AffineMap{}, 1.0);
+  if (reader.has("restitution"))
+    spawner.restitution = numbers.read("restitution", kRestitutions, AffineMap{}, 1.0);
+  if (reader.has("friction")) spawner.friction = numbers.read("friction", kFrictions, AffineMap{}, 0.0);
   builder.scene.world.spawners.push_back(std::move(spawner));
   builder.spawnTables.push_back(&table);
 }

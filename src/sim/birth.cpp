@@ -55,6 +55,8 @@ Body drawBody(const Spawner& spawner, std::uint32_t index, std::int64_t number, 
   body.acceleration.y() = draw(spawner.ay, random);
   const double mass = draw(spawner.mass, random);
   body.mass = mass > 0.0 ? mass : kSmallestMass;
+  if (spawner.restitution) body.restitution = std::clamp(draw(*spawner.restitution, random), 0.0, 1.0);
+  if (spawner.friction) body.friction = drawLength(*spawner.friction, random);
   const bool circle = body.shape == Shape::Circle;
   body.radius = circle ? radius : 0.0;
   body.size = circle ? Vec2(0.0, 0.0) : Vec2(width, height);

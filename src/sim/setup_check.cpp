@@ -82,6 +82,8 @@ void checkSpawner(const WorldSetup& setup, const Spawner& spawner, const std::st
                                &spawner.vx, &spawner.vy, &spawner.ax, &spawner.ay, &spawner.mass}) {
     checkNumber(*number, where);
   }
+  if (spawner.restitution) checkNumber(*spawner.restitution, where);
+  if (spawner.friction) checkNumber(*spawner.friction, where);
   checkPrototype(setup, spawner.prototype, where);
 }
 

@@ -88,7 +88,9 @@ struct Spawner {
   Number vx, vy;                     ///< px/s
   Number ax, ay;                     ///< px/s²
   Number mass = ConstantNumber{1.0}; ///< a draw that is not > 0 becomes the smallest positive mass, 1e-9
-  std::vector<std::uint32_t> looks;  ///< the n-th body takes looks[n % size]; never empty
+  /// Nothing: the prototype's. Draws are cut to 0 … 1, and to 0 and more.
+  std::optional<Number> restitution, friction;
+  std::vector<std::uint32_t> looks; ///< the n-th body takes looks[n % size]; never empty
 };
 
 /// Throws one circle at constant speed towards a destination, once for each of its moments.

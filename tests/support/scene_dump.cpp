@@ -61,7 +61,8 @@ std::string dump(const Spawner& s) {
        {&s.x, &s.y, &s.radius, &s.width, &s.height, &s.vx, &s.vy, &s.ax, &s.ay, &s.mass}) {
     text += " | " + dump(*number);
   }
-  return text;
+  text += " | " + dump(s.restitution.value_or(ConstantNumber{s.prototype.restitution}));
+  return text + " | " + dump(s.friction.value_or(ConstantNumber{s.prototype.friction}));
 }
 
 std::string dump(const Anchor& anchor) {
