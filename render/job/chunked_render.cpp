@@ -49,12 +49,6 @@ public:
         endChunk_(share(1)),
         output_(makeChunkedOutput(options.out, formatOf(source, options, schedule_))),
         state_(plan_.chunks()) {
-    if (firstChunk_ == endChunk_) {
-      throw Error(ExitCode::BadInput,
-                  fmt::format("--segment {}/{}: the output has {} chunk{}, so no more segments than that",
-                              options.segment->number, options.segment->count, plan_.chunks(),
-                              plan_.chunks() == 1 ? "" : "s"));
-    }
     if (!options.hashFile.empty()) requireWritable(options.hashFile);
     if (source.hasCaptions() && !options.segment && Sidecar::nameFor(options.out))
       sidecar_.emplace(options.out);
@@ -67,6 +61,13 @@ public:
                 options_.segment ? Parts::Use::Segment : Parts::Use::Whole, options_.resume);
     printNotice(parts.notice());
     removeLeftovers();
+    if (firstChunk_ == endChunk_) {
+      // As many machines as asked for can run the same command, however short the scene.
+      printNotice(fmt::format("segment {} of {} has nothing to make: the output has {} chunk{}",
+                              options_.segment->number, options_.segment->count, plan_.chunks(),
+                              plan_.chunks() == 1 ? "" : "s"));
+      return {0, 0.0, elapsed(), 0};
+    }
     const std::vector<std::int64_t> missing = missingChunks(parts);
     const std::int64_t there = endChunk_ - firstChunk_ - static_cast<std::int64_t>(missing.size());
     if (there > 0) {
