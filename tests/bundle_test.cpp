@@ -109,6 +109,16 @@ TEST(Bundle, HoldsEverythingThatALecturesPageNeeds) {
   EXPECT_EQ(readFile(dir / "out/lecture.mp4"), before);
 }
 
+TEST(Bundle, OfATransparentSceneIsRefusedForWhatItIs) {
+  const TempDir dir;
+  const std::string scene =
+      dir.write("s.toml", "duration = 0.1\n[frame]\nbackground = \"transparent\"\n").string();
+  const ProcessResult result = offstage({"bundle", scene, "-o", dir / "out"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("s.toml: a bundle's videos have no transparency"));
+  EXPECT_THAT(dir.names(), ElementsAre("s.toml"));
+}
+
 TEST(Bundle, AnInterruptedOneLeavesNothingAndPromisesNothing) {
   const TempDir dir;
   const std::string scene = dir.write("lecture.toml", kBundleScene).string();

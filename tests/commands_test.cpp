@@ -172,6 +172,33 @@ TEST(Commands, ResultsThatDoNotArriveAreAnErrorNotASuccess) {
   }
 }
 
+TEST(Commands, ADifferenceThatDoesNotArriveIsAnErrorToo) {
+  const TempDir dir;
+  for (const char* at : {"0", "1"})
+    ASSERT_EQ(offstage({"still", scene("fall"), "--at", at, "-o", dir / (std::string(at) + ".png")}).status,
+              0);
+  const ProcessResult full =
+      runProcess({"/bin/sh", "-c", "exec \"$@\" >/dev/full", "sh", OFFSTAGE_BINARY_DIR "/offstage", "diff",
+                  dir / "0.png", dir / "1.png"});
+  EXPECT_EQ(full.status, 75) << full.err;
+}
+
+TEST(Commands, ARateIsRefusedWhereItWouldChangeNothing) {
+  const TempDir dir;
+  dir.write("r.dt", "16666667\n16666667\n16666666\n100000000\n33333333\n16666667\n");
+  dir.write("r.toml",
+            "[clock]\nrecorded = \"r.dt\"\n[[body]]\ncenter = [50, 30]\nradius = 10\nvelocity = [30, 0]\n");
+  const ProcessResult trace = offstage({"trace", dir / "r.toml", "--fps", "30"});
+  EXPECT_EQ(trace.status, 2);
+  EXPECT_THAT(trace.err, HasSubstr("--fps: a trace has a row for every step"));
+  EXPECT_EQ(trace.out, "");
+  // The second frame of 30 a second, from 0.033 s on, shows what the recording showed then.
+  EXPECT_THAT(offstage({"still", dir / "r.toml", "--at", "0.06", "--fps", "30", "-o", dir / "x.png"}).out,
+              HasSubstr("frame 2 at 0.033"));
+  EXPECT_THAT(offstage({"still", dir / "r.toml", "--at", "0.06", "-o", dir / "x.png"}).out,
+              HasSubstr("frame 3 at 0.05 s"));
+}
+
 TEST(Commands, TwoOutputsInOnePlaceAreRefused) {
   const TempDir dir;
   const std::vector<std::vector<std::string>> cases{{"-o", dir / "x.mp4", "--hash", dir / "x.mp4"},
@@ -275,6 +302,17 @@ TEST(Commands, StillDrawsTheFrameOnShow) {
   EXPECT_THAT(readFile(out), StartsWith("\x89PNG\r\n\x1a\n"));
 }
 
+TEST(Commands, StillNamesWhatSlowMotionShows) {
+  const TempDir dir;
+  const std::string slow = dir.write("slow.toml", "duration = 2\n[[body]]\ncenter = [100, 100]\nradius = 20\n"
+                                                  "[[speed]]\nfrom = 0.5\nto = 1\nfactor = 0.1\n")
+                               .string();
+  const ProcessResult result = offstage({"still", slow, "--at", "3.02", "-o", dir / "x.png"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  // 0.5 s and a tenth of the 2.516… s to frame 181 of the video: between frames 45 and 46.
+  EXPECT_THAT(result.out, HasSubstr("frame 45 at 0.751"));
+}
+
 TEST(Commands, TraceGoesToStdoutByDefaultWithFrame0AndTheLastState) {
   const ProcessResult result = offstage({"trace", scene("fall"), "--duration", "0.1"});
   EXPECT_EQ(result.status, 0) << result.err;
@@ -319,6 +357,42 @@ TEST(Commands, CheckDecodesImages) {
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, HasSubstr("a.toml:5:"));
   EXPECT_THAT(result.err, HasSubstr("broken.png"));
+}
+
+TEST(Commands, CheckLooksAtTheMasksOfGoldens) {
+  const TempDir dir;
+  writeFile(dir / "text.png", "this is no picture");
+  ASSERT_EQ(
+      offstage({"still", scene("fall"), "--at", "0", "--size", "32x24", "-o", dir / "small.png"}).status, 0);
+  const std::string start = "[[body]]\ncenter = [1, 2]\nradius = 3\n[golden]\nat = [1]\nmask = ";
+  for (const auto& [mask, problem] :
+       {std::pair{"\"nope.png\"",
+                  "s.toml:6:8: error: 'mask' names the file \"nope.png\", which does not exist"},
+        {"[\".\"]", "s.toml:6:9: error: 'mask' names the file \".\", which is no regular file"},
+        {"\"text.png\"", "text.png"},
+        {"\"small.png\"", "is 32x24 px, the pictures are 640x480"}}) {
+    writeFile(dir / "s.toml", start + mask + "\n");
+    const ProcessResult result = offstage({"check", dir / "s.toml"});
+    EXPECT_EQ(result.status, 2) << mask;
+    EXPECT_THAT(result.err, HasSubstr(problem)) << mask;
+  }
+}
+
+TEST(Commands, CheckGoesOnBehindASceneThatThisMachineCannotDraw) {
+  const TempDir dir;
+  writeFile(dir / "formula.toml", "[[text]]\nformula = 'x'\nplace = \"top\"\n");
+  writeFile(dir / "wrong.toml", "[clock]\nfps = 0\n");
+  ProcessOptions options;
+  options.environment = {{"XDG_CACHE_HOME", dir.path().string()}, {"PATH", ""}};
+  const ProcessResult lacking = offstage({"check", dir / "formula.toml", scene("fall")}, options);
+  EXPECT_EQ(lacking.status, 3);
+  EXPECT_EQ(lacking.out, scene("fall") + ": ok\n");
+  EXPECT_THAT(lacking.err, HasSubstr("formula.toml: error: a formula is typeset by latex, which is missing"));
+  const ProcessResult both = offstage({"check", dir / "formula.toml", dir / "wrong.toml"}, options);
+  EXPECT_EQ(both.status, 2);
+  EXPECT_THAT(both.err, HasSubstr("wrong.toml:2:"));
+  EXPECT_THAT(offstage({"check", "--json", dir / "formula.toml"}, options).out,
+              HasSubstr("\"ok\": false, \"errors\": ["));
 }
 
 TEST(Commands, CheckAsJson) {

@@ -47,6 +47,8 @@ TEST(OutputPlaces, TwoNamesOfOneFileThatIsNotThereYetAreOnePlace) {
   const std::vector<std::vector<std::string>> cases{{"s.toml", "-o", "x.mp4", "--hash", "./x.mp4"},
                                                     {"s.toml", "-o", "x.mp4", "--hash", dir / "x.mp4"},
                                                     {"s.toml", "-o", "x%d.png", "--poster", "x5.png"},
+                                                    {"s.toml", "-o", "x.mp4", "--hash", "x.mp4.parts"},
+                                                    {"s.toml", "-o", "x.mp4", "--hash", "./x.mp4.parts/h"},
                                                     {"s.toml", "-o", "./p.png%d.png", "--hash", "p.png3.png"},
                                                     {"captions.toml", "-o", "r.mp4", "--hash", "r.vtt"}};
   for (const std::vector<std::string>& arguments : cases) {

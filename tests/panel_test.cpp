@@ -127,16 +127,18 @@ TEST(Panels, TextsOverTheWholePictureBelongToNoPanel) {
   EXPECT_EQ(masksOf(kBall + panels + own).size(), 2U);
 
   const auto wrong = [&](const std::string& text) {
-    return errorsOf(kBall + panels + "[[panels.text]]\n" + text);
+    return errorsOf(kBall + "name = \"ball\"\n" + panels + "[[panels.text]]\n" + text);
   };
   using ::testing::ElementsAre;
   using ::testing::HasSubstr;
   EXPECT_THAT(wrong("text = \"{count}\"\nplace = \"top\"\n"),
-              ElementsAre(HasSubstr("17:8: error: a [[panels.text]] "
+              ElementsAre(HasSubstr("18:8: error: a [[panels.text]] "
                                     "belongs to no panel")));
   EXPECT_THAT(wrong("text = \"{ball.x}\"\nplace = \"top\"\n"),
-              ElementsAre(HasSubstr("no body and no group \"ball\"")));
-  EXPECT_THAT(wrong("text = \"a\"\nat = \"ball\"\n"), ElementsAre(HasSubstr("unknown body")));
+              ElementsAre(HasSubstr("its values are only t and frame")));
+  EXPECT_THAT(wrong("text = \"{bull.x}\"\nplace = \"top\"\n"),
+              ElementsAre(HasSubstr("no body and no group \"bull\"")));
+  EXPECT_THAT(wrong("text = \"a\"\nat = \"ball\"\n"), ElementsAre(HasSubstr("it follows no body")));
   EXPECT_THAT(wrong("text = \"a\"\n"), ElementsAre(HasSubstr("needs 'at' or 'place'")));
 }
 
@@ -163,6 +165,11 @@ TEST(Panels, TellWhatIsWrongOnceAndWhere) {
       ::testing::ElementsAre(HasSubstr("scene.toml:12:20: error: 'integrator' in [world] must be"),
                              HasSubstr("scene.toml:14:1: error: unknown key 'frame' in [[panel]]"),
                              HasSubstr("scene.toml:16:9: error: 'color' in [[panel]]")));
+  const std::string camera = "camera]]\nat = 0\ncenter = [9, 9]\n";
+  EXPECT_THAT(errorsOf(kBall + "[[panel]]\n[[" + camera),
+              ::testing::ElementsAre(HasSubstr("[[camera]] cannot stand beside [[panel]]")));
+  EXPECT_THAT(errorsOf(kBall + "[[panel]]\n[[panel." + camera),
+              ::testing::ElementsAre(HasSubstr("unknown key 'camera' in [[panel]]")));
   EXPECT_THAT(errorsOf("[panels]\ngap = 3\n"), ::testing::ElementsAre(HasSubstr("there are none")));
   EXPECT_THAT(errorsOf("[[body]]\nradius = 2\n[[panel]]\n[[panel]]\n"),
               ::testing::ElementsAre(HasSubstr("[[body]] needs 'center'")));

@@ -23,7 +23,7 @@ constexpr int kHighDefinition = 720;
 
 VideoReader::VideoReader(const std::filesystem::path& file, std::int64_t maxPixels, int threads)
     : file_(file), maxPixels_(maxPixels), packet_(libav::makePacket()) {
-  libav::quietLog();
+  libav::quietLog(AV_LOG_FATAL);
   AVFormatContext* format = nullptr;
   check(avformat_open_input(&format, ("file:" + file.native()).c_str(), nullptr, nullptr), "cannot be read");
   format_.reset(format);

@@ -34,7 +34,7 @@ std::shared_ptr<const Font> readFont(const FontChoice& choice, const std::filesy
     throw;
   } catch (const std::runtime_error& error) {
     if (choice.file.empty())
-      throw Error(ExitCode::Environment, fmt::format("the font {} {}; install the package {}", file.string(),
+      throw Error(ExitCode::Environment, fmt::format("the font {}: {}; install the package {}", file.string(),
                                                      error.what(), kFontPackage));
     const std::string message = fmt::format("the font {} {}", file.string(), error.what());
     if (choice.where.file.empty()) throw Error(ExitCode::BadInput, message);

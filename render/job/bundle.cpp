@@ -31,6 +31,10 @@ public:
 
   std::vector<std::string> make() {
     const Viewport viewport = options_.viewport(scene_.size[0], scene_.size[1], scene_.scale);
+    if (scene_.background.alpha < 1.0)
+      throw Error(ExitCode::BadInput,
+                  fmt::format("{}: a bundle's videos have no transparency: give [frame] an opaque background",
+                              scene_.file.string()));
     if (options_.strict) rehearseAll(viewport);
     contents_.title = scene_.title;
     contents_.mp4 = add(".mp4");

@@ -2,6 +2,7 @@
 
 #include "render/compare/golden_output.h"
 #include "render/compare/golden_store.h"
+#include "render/compare/ignore.h"
 #include "render/compare/shell_word.h"
 #include "render/job/interrupt.h"
 #include "render/job/rehearsal.h"
@@ -83,6 +84,8 @@ public:
     source_.watch(scene, warnings_);
     if (recorded_) watch_.emplace(*recorded_);
     source_.draw(picture_);
+    static_cast<void>(
+        ignoredPixels(scene.golden->tolerance, picture_.width, picture_.height)); // are they there?
     canvas_ = std::make_unique<Canvas>(picture_.width, picture_.height);
     const Canvas::Info info = canvas_->info();
     machine_ = thisMachine(info.renderer, info.version);

@@ -28,6 +28,9 @@ CLI::Option* addNumber(CLI::App& app, const char* name, std::optional<T>& target
             const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
             bool good = error == std::errc{} && end == text.data() + text.size();
             if constexpr (std::is_floating_point_v<T>) good = good && std::isfinite(value);
+            if (error == std::errc::result_out_of_range && std::is_integral_v<T>)
+              throw Error(ExitCode::BadInput,
+                          fmt::format("{} '{}' is not from {} to {}", name, text, low, high));
             if (!good)
               throw Error(ExitCode::BadInput,
                           fmt::format("{} '{}' is not {}", name, text,

@@ -5,8 +5,10 @@
 #include "render/job/frame_maker.h"
 #include "render/job/interrupt.h"
 #include "render/job/output_places.h"
+#include "render/job/parts.h"
 #include "render/job/sidecar.h"
 #include "render/output/atomic_file.h"
+#include "render/output/file_error.h"
 #include "render/output/output_kind.h"
 #include "render/output/sink.h"
 #include "src/sim/error.h"
@@ -87,6 +89,14 @@ void requireOutput(const RenderOptions& options) {
   requireApart(out, hash.option, hash.out);
   requireApart(out, poster.option, poster.out);
   requireApart(hash, poster.option, poster.out);
+  if (options.out.empty() || isStream(outputKind(options.out))) return;
+  // What waits there goes with the folder when all is made.
+  const std::filesystem::path parts = Parts::folderFor(options.out);
+  for (const OutputPlace& output : {hash, poster}) {
+    requireApart(output, "the folder of the parts,", parts);
+    if (!output.out.empty())
+      requireApart({output.option, placeOf(output.out).parent_path()}, "a folder that is removed,", parts);
+  }
 }
 
 void requireApart(const RenderOptions& options, const Scene& scene) {

@@ -3,7 +3,7 @@
 namespace offstage::libav {
 
 int openInput(const std::filesystem::path& file, InputContext& context, const char* formats) {
-  quietLog();
+  quietLog(AV_LOG_FATAL);
   const std::string url = "file:" + file.native(); // "file:" keeps a:b.mp4 from being taken for a protocol
   Options options;
   if (formats != nullptr) options.set("format_whitelist", formats);

@@ -1,7 +1,6 @@
 #include "render/output/libav.h"
 
 #include <array>
-#include <mutex>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -38,11 +37,8 @@ int check(int result, ExitCode code, std::string_view what) {
   throw Error(code, fmt::format("{}: {}", what, errorText(result)));
 }
 
-void quietLog() {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    if (av_log_get_level() > AV_LOG_ERROR) av_log_set_level(AV_LOG_ERROR);
-  });
+void quietLog(int level) {
+  if (av_log_get_level() > level) av_log_set_level(level);
 }
 
 } // namespace offstage::libav

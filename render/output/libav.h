@@ -79,8 +79,9 @@ std::string errorText(int error);
 /// `result` if it is not an error; else throws Error(code, "WHAT: what libav says").
 int check(int result, ExitCode code, std::string_view what);
 
-/// Makes libav log nothing but errors, on stderr as is its default, unless the program has already chosen to
-/// hear less. Called by everything here that opens something.
-void quietLog();
+/// Makes libav log no more than `level` on stderr, unless the program has already chosen to hear less. Called
+/// by everything here that opens something: what encodes lets errors through, what reads does not, whose
+/// callers say themselves what is wrong with a file.
+void quietLog(int level = AV_LOG_ERROR);
 
 } // namespace offstage::libav

@@ -1,3 +1,5 @@
+#include "render/compare/ignore.h"
+#include "render/job/frame_maker.h"
 #include "render/job/scene_source.h"
 #include "render/output/json_text.h"
 #include "src/app/commands.h"
@@ -13,17 +15,27 @@
 namespace offstage {
 namespace {
 
-/// Everything that a render would refuse before its first frame: the scene's own errors, then its images'.
-std::vector<Diagnostic> problemsOf(const std::filesystem::path& file) {
+struct Findings {
+  std::vector<Diagnostic> problems;
+  ExitCode code = ExitCode::Done;
+};
+
+/// Everything that a render would refuse before its first frame: the scene's own errors, then its images',
+/// then what the machine lacks for it.
+Findings findingsOf(const std::filesystem::path& file) {
   try {
     const Scene scene = loadScene(file);
     const SceneSource source(scene, Viewport::scaled(scene.size[0], scene.size[1], scene.scale));
+    if (scene.golden) {
+      const Picture picture = pictureOf(source);
+      static_cast<void>(ignoredPixels(scene.golden->tolerance, picture.width, picture.height));
+    }
     return {};
   } catch (const SceneError& error) {
-    return error.diagnostics();
+    return {error.diagnostics(), ExitCode::BadInput};
   } catch (const Error& error) {
-    if (error.code() != ExitCode::BadInput) throw;
-    return SceneError(file.string(), error.what()).diagnostics();
+    if (error.code() != ExitCode::BadInput && error.code() != ExitCode::Environment) throw;
+    return {SceneError(file.string(), error.what()).diagnostics(), error.code()};
   }
 }
 
@@ -53,11 +65,12 @@ void addCheck(CLI::App& app, Action& action) {
   verb.add_flag("--json", arguments->json, "print the result as JSON");
   verb.callback([arguments, &action] {
     action = [arguments] {
-      bool good = true;
+      ExitCode worst = ExitCode::Done;
       for (std::size_t i = 0; i < arguments->scenes.size(); ++i) {
         const std::filesystem::path& file = arguments->scenes[i];
-        const std::vector<Diagnostic> problems = problemsOf(file);
-        good = good && problems.empty();
+        const auto [problems, code] = findingsOf(file);
+        if (code != ExitCode::Done && worst != ExitCode::BadInput)
+          worst = code; // what is wrong before what lacks
         if (arguments->json) {
           printJson(file, problems, i == 0);
         } else if (problems.empty()) {
@@ -67,7 +80,7 @@ void addCheck(CLI::App& app, Action& action) {
         }
       }
       if (arguments->json) fmt::print("\n]\n");
-      return static_cast<int>(good ? ExitCode::Done : ExitCode::BadInput);
+      return static_cast<int>(worst);
     };
   });
 }

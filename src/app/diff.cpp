@@ -9,6 +9,7 @@
 #include "src/app/tolerance_options.h"
 #include "src/app/trace_options.h"
 
+#include <cerrno>
 #include <iostream>
 #include <memory>
 #include <utility>
@@ -104,6 +105,7 @@ int run(const Arguments& arguments, const CLI::App& verb) {
   else
     writeText(std::cout, result.report);
   std::cout.flush();
+  if (!std::cout) throw standardOutputError(errno);
   return static_cast<int>(result.report.passed ? ExitCode::Done : ExitCode::Differs);
 }
 

@@ -10,6 +10,7 @@
 #include "src/app/commands.h"
 #include "src/scene/scene.h"
 
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -18,6 +19,11 @@
 #include <fmt/format.h>
 
 namespace offstage {
+namespace {
+
+constexpr double kRounding = 1e-9; ///< s: a moment that is a frame's time up to rounding is meant to be it
+
+} // namespace
 
 void addStill(CLI::App& app, Action& action) {
   struct Arguments {
@@ -53,13 +59,18 @@ void addStill(CLI::App& app, Action& action) {
       SceneSource source(scene, viewport);
       source.watch(scene, warnings);
       AtomicFile file(arguments->out);
-      const Still still = drawStill(source, arguments->at.value(), arguments->strobe.value_or(1));
+      double at = arguments->at.value();
+      const bool retimed = source.film() != nullptr && source.film()->map;
+      if (options.fps && !scene.clock.isFixed() && !retimed) // the frame on show in the resampled video
+        at = std::floor((at + kRounding) * *options.fps) / *options.fps;
+      const Still still = drawStill(source, at, arguments->strobe.value_or(1));
       const std::vector<std::uint8_t> png =
           encodePng(still.frame, still.alpha, printResolution(viewport.scale));
       file.write(png.data(), png.size());
       file.commit();
+      const Snapshot shown = source.snapshot();
       say(stdout, fmt::format("{}: {}x{}, frame {} at {} s\n", arguments->out.string(), still.frame.width,
-                              still.frame.height, source.frame(), source.time()));
+                              still.frame.height, shown.frame, shown.time));
       return static_cast<int>(ExitCode::Done);
     };
   });

@@ -84,6 +84,10 @@ void addTrace(CLI::App& app, Action& action) {
       if (scene.replay)
         throw Error(ExitCode::BadInput, fmt::format("{} simulates nothing: it replays the trace {}",
                                                     arguments->scene.string(), scene.replay->trace.file));
+      if (arguments->options.fps && !scene.clock.isFixed())
+        throw Error(ExitCode::BadInput,
+                    "--fps: a trace has a row for every step, and those of a recorded clock are "
+                    "recorded; leave it out");
       if (arguments->options.strict) { // what is written to a pipe cannot be taken back
         WarningLog strict(WarningLog::Mode::Strict);
         runAll(scene, strict, [](const World&) {});

@@ -71,7 +71,6 @@ void readTimes(SceneBuilder& builder, const TableReader& reader, Caption& captio
   const auto from = reader.givenNumber("from", time);
   const auto to = reader.givenNumber("to", time);
   const double length = reader.number("for", Range::aboveUpTo(0.0, kMaxDuration));
-  if (!reader.has("from")) reader.require("from");
   reader.rejectBoth("for", "to");
   caption.from = from.value_or(0.0);
   caption.to = to ? *to : caption.from + length;
@@ -158,6 +157,7 @@ void parseCaption(SceneBuilder& builder, const TomlValue& table) {
     readEvent(builder, reader, std::move(text));
     return;
   }
+  if (!reader.has("from")) builder.errors.add(table, "[[caption]] needs 'from' or 'on'");
   for (const char* key : {"body", "limit"})
     if (reader.has(key)) reader.reject(key, "needs 'on' beside it");
   Caption caption;

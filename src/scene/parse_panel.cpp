@@ -27,16 +27,22 @@ int defaultColumns(std::size_t panels) {
 }
 
 /// [[panels.text]]: they stand over the whole picture and belong to no panel, so they know of no bodies.
-std::vector<TextItem> readTexts(const TableReader& panels, const Scene& scene) {
-  SceneBuilder whole(scene.file);
+std::vector<TextItem> readTexts(const TableReader& panels, const SceneBuilder& first, const Scene& scene) {
+  SceneBuilder whole = first; // knows the names, so that a body's value is refused for what it is
+  whole.scene = *scene.panels.panels.front().scene;
+  whole.scene.texts.clear();
   whole.scene.size = scene.size;
   whole.scene.theme = scene.theme;
   parseEach(whole, panels, "text", parseText);
   for (const TextItem& item : whole.scene.texts) {
+    const bool follows = !item.place && item.at.body.has_value();
     const bool ofBodies = std::ranges::any_of(item.text.pieces, [](const TextTemplate::Piece& piece) {
       return piece.probe && piece.probe->quantity != Quantity::Time &&
              piece.probe->quantity != Quantity::Frame;
     });
+    if (follows)
+      whole.errors.add(item.where.line, item.where.column,
+                       "a [[panels.text]] belongs to no panel, so it follows no body: 'at' is a point");
     if (ofBodies)
       whole.errors.add(item.where.line, item.where.column,
                        "a [[panels.text]] belongs to no panel, so its values are only t and frame");
@@ -84,7 +90,7 @@ void readLayout(const TomlValue& root, std::span<const SceneBuilder> builders, E
   scene.size = {static_cast<int>(size[0]), static_cast<int>(size[1])};
   scene.texts.clear(); // the scene's own are those of each panel
   try {
-    scene.texts = readTexts(reader, scene);
+    scene.texts = readTexts(reader, builders.front(), scene);
   } catch (const SceneError& problems) {
     for (const Diagnostic& problem : problems.diagnostics())
       errors.add(problem.where.line, problem.where.column, problem.message);
@@ -127,6 +133,13 @@ SceneOverrides overridesFor(const TomlValue& panel, const SceneOverrides& overri
   return own;
 }
 
+/// The moves of a camera are the whole picture's, and what they would show of panels nobody has said.
+void rejectCamera(const TomlValue& root, ErrorList& errors) {
+  if (const TomlEntry* camera = findEntry(root, "camera"))
+    errors.add(camera->line, camera->column,
+               "[[camera]] cannot stand beside [[panel]]: it moves over one world, not over panels");
+}
+
 void paintAll(Scene& scene, const Color& color) {
   for (Look& look : scene.looks) {
     if (look.fill) look.fill = color;
@@ -153,6 +166,7 @@ void parsePanels(const TomlValue& root, const SceneOverrides& overrides, const S
     errors.throwIfAny();
     return;
   }
+  rejectCamera(root, errors);
   std::set<std::tuple<std::uint32_t, std::uint32_t, std::string>> told;
   std::vector<SceneBuilder> builders; // by panel; what they name is asked for once more, by [[panels.plot]]
   for (const TomlValue& table : *list->value.array()) {

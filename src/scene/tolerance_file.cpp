@@ -1,6 +1,7 @@
 #include "src/scene/tolerance_file.h"
 
 #include "src/scene/nearest.h"
+#include "src/scene/quote.h"
 #include "src/scene/table_reader.h"
 #include "src/scene/text_file.h"
 
@@ -58,7 +59,13 @@ void readMasks(const TomlValue& value, const std::string& what, const std::files
     const std::string* text = std::get_if<std::string>(&name.data);
     if (text == nullptr || text->empty())
       return reportMismatch(name, what, "a file or an array of files", errors);
-    to.push_back(folder / *text);
+    std::error_code error;
+    const std::filesystem::path file = folder / *text;
+    if (!std::filesystem::is_regular_file(file, error))
+      return errors.add(
+          name, fmt::format("{} names the file {}, which {}", what, quotedText(*text),
+                            std::filesystem::exists(file, error) ? "is no regular file" : "does not exist"));
+    to.push_back(file);
   };
   if (value.array() == nullptr) return one(value);
   for (const TomlValue& name : *value.array()) one(name);
