@@ -1,6 +1,7 @@
 #include "render/draw/formula.h"
 #include "src/sim/error.h"
 #include "tests/support/process.h"
+#include "tests/support/scene_text.h"
 #include "tests/support/temp_dir.h"
 
 #include <atomic>
@@ -134,6 +135,17 @@ TEST_F(Formula, OfASceneIsDrawnOrLocated) {
   EXPECT_THAT(wrong.err,
               HasSubstr("s.toml:5:11: error: 'formula' in [[text]]: TeX says: Undefined control sequence."));
   EXPECT_TRUE(std::filesystem::exists(folder() / "offstage/formulas"));
+}
+
+TEST(FormulaText, ThatAnEscapeHasChangedIsRefused) {
+  for (const auto& [formula, code] : {std::pair{"\\theta", "U+0009"},
+                                      {"x \\times y", "U+0009"},
+                                      {"\\frac{1}{2}", "U+000C"},
+                                      {"\\beta", "U+0008"}})
+    EXPECT_THAT(errorsOf("[[text]]\nformula = \"" + std::string(formula) + "\"\nplace = \"top\"\n"),
+                ::testing::ElementsAre(AllOf(HasSubstr(code), HasSubstr("write it in single ones"))))
+        << formula;
+  EXPECT_THAT(errorsOf("[[text]]\nformula = '\\theta'\nplace = \"top\"\n"), ::testing::IsEmpty());
 }
 
 TEST(FormulaWithoutTex, IsStatus3NamingThePackages) {

@@ -82,6 +82,17 @@ bool readFormula(const TableReader& reader, TextItem& item) {
     reader.reject("formula", fmt::format("may hold at most {} bytes", kMaxTextBytes));
     return false;
   }
+  // "\theta" in double quotes is a tab and "heta" for TOML, and TeX would take the tab for a space.
+  const auto escape = std::ranges::find_if(
+      *formula, [](char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\r'; });
+  if (escape != formula->end()) {
+    reader.reject(
+        "formula",
+        fmt::format("holds the control character U+{:04X}, which \"\\t\", \"\\f\" or \"\\b\" stands for "
+                    "in double quotes: write it in single ones, '\\theta'",
+                    static_cast<unsigned>(static_cast<unsigned char>(*escape))));
+    return false;
+  }
   item.formula = *formula;
   return true;
 }
