@@ -51,6 +51,22 @@ protected:
   const Frame frame_ = lectureFrame(64, 48, 3);
 };
 
+TEST_F(DiffCommand, AnAnimatedPngKeepsItsTimesOverManyFrames) {
+  const std::string scene =
+      dir_.write("s.toml", "duration = 10\n[frame]\nsize = [32, 24]\n[[body]]\ncenter = [5, 9]\n"
+                           "radius = 3\nvelocity = [2, 1]\n")
+          .string();
+  for (const std::vector<std::string>& made :
+       std::vector<std::vector<std::string>>{{"x.apng"}, {"x.mkv", "--quality", "lossless"}}) {
+    std::vector<std::string> command{"render", scene, "-o", path(made[0])};
+    command.insert(command.end(), made.begin() + 1, made.end());
+    ASSERT_EQ(offstage(command).status, 0);
+  }
+  const ProcessResult result = offstage({"diff", path("x.mkv"), path("x.apng")});
+  EXPECT_EQ(result.status, 0)
+      << result.out; // 600 frames of 1/60 s, which are 2 ms off after ten seconds in 1/100000 s
+}
+
 TEST_F(DiffCommand, ReplacesNothingThatItCompares) {
   const std::string a = put("a.png", frame_);
   const std::string b = put("b.png", changed(frame_, 20, 30));

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -36,6 +37,7 @@ private:
   void openDecoder(int threads);
   void requireAllowedSize(int width, int height) const;
   bool feed();
+  void noteExactTime();
 
   std::filesystem::path file_;
   std::int64_t maxPixels_;
@@ -44,6 +46,8 @@ private:
   libav::Packet packet_;
   int stream_ = -1;
   bool drained_ = false;
+  std::map<std::int64_t, double> exactTimes_; ///< s, of an .apng's frames to come, by libav's time stamp
+  double apngTime_ = 0.0;                     ///< s: when its next frame is shown
 };
 
 /// Whether two pictures are equal byte for byte in size, format, colours' meaning and planes: then they are
