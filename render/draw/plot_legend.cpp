@@ -36,11 +36,17 @@ PlotLegend::PlotLegend(const Plot& plot, const Viewport& viewport, const TextPai
   look_.anchor = NinePosition::Left;
 }
 
+/// All of one size: that of the name which needs the smallest.
 void PlotLegend::setNames(double room) {
+  const double nameRoom = std::max(room - kName * em_, 0.0) / viewport_.scale;
+  const double least = kLeastShare * look_.size;
+  TextLook look = look_;
+  for (const PlotCurve& curve : curves_)
+    look.size = std::min(look.size, fitText(texts_, curve.name, look_, nameRoom, least).look.size);
   entries_.clear();
   for (const PlotCurve& curve : curves_) {
-    FittedText name = fitText(texts_, curve.name, look_, std::max(room - kName * em_, 0.0) / viewport_.scale,
-                              kLeastShare * look_.size);
+    FittedText name{curve.name, look};
+    if (look.size <= least) name = fitText(texts_, curve.name, look, nameRoom, least);
     const double width = texts_.measure(name.text, name.look).x() * viewport_.scale;
     entries_.push_back({std::move(name.text), name.look, width + kName * em_, curve.color});
   }

@@ -1,5 +1,6 @@
 #include "render/draw/plot_painter.h"
 
+#include "render/draw/fit_text.h"
 #include "render/draw/pen.h"
 
 #include <algorithm>
@@ -116,11 +117,9 @@ TextLook PlotPainter::textLook(NinePosition anchor, double size) const {
 }
 
 void PlotPainter::text(Picture& picture, const std::string& text, const Vec2& outputPoint,
-                       NinePosition anchor, double size, bool upwards) const {
+                       NinePosition anchor, double size) const {
   if (text.empty()) return;
-  TextLook look = textLook(anchor, size);
-  look.upwards = upwards;
-  texts_.draw(picture, text, look, (outputPoint - viewport_.offset) / viewport_.scale);
+  texts_.draw(picture, text, textLook(anchor, size), (outputPoint - viewport_.offset) / viewport_.scale);
 }
 
 /// In a corner that no curve goes through in the whole run, so that it stands still and hides nothing; where
@@ -228,10 +227,40 @@ void PlotPainter::drawFrame(Picture& picture) const {
   pen.line({inner_.low.x(), sharp(inner_.high.y(), line)}, {inner_.high.x(), sharp(inner_.high.y(), line)});
   pen.line({sharp(inner_.low.x(), line), inner_.low.y()}, {sharp(inner_.low.x(), line), inner_.high.y()});
   const Vec2 middle = 0.5 * (inner_.low + inner_.high);
-  text(picture, plot_.x.label, {middle.x(), corner.y() + size.y() - 0.35 * em * scale}, NinePosition::Bottom,
-       em);
-  text(picture, plot_.y.label, {corner.x() + 0.35 * em * scale, middle.y()}, NinePosition::Left, em, true);
-  text(picture, plot_.title, {middle.x(), corner.y() + 0.5 * em * scale}, NinePosition::Top, 1.15 * em);
+  label(picture, plot_.x.label, {middle.x(), corner.y() + size.y() - 0.35 * em * scale},
+        textLook(NinePosition::Bottom, em));
+  label(picture, plot_.title, {middle.x(), corner.y() + 0.5 * em * scale},
+        textLook(NinePosition::Top, 1.15 * em));
+  TextLook upwards = textLook(NinePosition::Left, em);
+  upwards.upwards = true;
+  label(picture, plot_.y.label, {corner.x() + 0.35 * em * scale, middle.y()}, upwards);
+}
+
+/// A text in the middle of the axes. One that would leave the area so is moved along, and set smaller or cut
+/// where that is not enough; then it also keeps clear of what stands around the corner.
+void PlotPainter::label(Picture& picture, const std::string& text, Vec2 at, const TextLook& look) const {
+  if (text.empty()) return;
+  const int axis = look.upwards ? 1 : 0;
+  const double scale = viewport_.scale;
+  double low = plot_.area[static_cast<std::size_t>(axis)] * scale + viewport_.offset[axis];
+  const double high = low + plot_.area[static_cast<std::size_t>(axis) + 2] * scale;
+  if (look.upwards) low += legendHeight_ * scale;
+  FittedText fitted{text, look};
+  double half = 0.5 * texts_.measure(text, look)[axis] * scale;
+  if (at[axis] - half < low || at[axis] + half > high) {
+    const double em = plot_.textSize * scale;
+    const double margin = 0.35 * em;
+    const double row = 1.75 * em; // what a label takes up
+    const bool yLabel = !plot_.y.label.empty();
+    double from = low + (!look.upwards && yLabel ? row : margin);
+    double to = high - (look.upwards && !plot_.x.label.empty() ? row : margin);
+    if (look.upwards && !plot_.title.empty()) from += row;
+    to = std::max(to, from);
+    fitted = fitText(texts_, text, look, (to - from) / scale, kLeastShare * look.size);
+    half = 0.5 * texts_.measure(fitted.text, fitted.look)[axis] * scale;
+    at[axis] = std::clamp(at[axis], from + half, std::max(to - half, from + half));
+  }
+  if (!fitted.text.empty()) texts_.draw(picture, fitted.text, fitted.look, (at - viewport_.offset) / scale);
 }
 
 void PlotPainter::grow(Grown& grown, std::size_t curve, std::size_t frames) const {

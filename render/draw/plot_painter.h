@@ -49,7 +49,8 @@ private:
   [[nodiscard]] std::optional<Vec2> reached(const PlotData::Point& point) const;
   [[nodiscard]] TextLook textLook(NinePosition anchor, double size) const;
   void text(Picture& picture, const std::string& text, const Vec2& outputPoint, NinePosition anchor,
-            double size, bool upwards = false) const;
+            double size) const;
+  void label(Picture& picture, const std::string& text, Vec2 at, const TextLook& look) const;
 
   Plot plot_;
   std::vector<const PlotData::Points*> curves_;
