@@ -10,9 +10,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -278,6 +281,78 @@ TEST(Overlay, StagesHaveTheSameOverlays) {
   EXPECT_EQ(count(Primitive::Kind::Disc), 4);   // three ghosts and the ball
   EXPECT_GE(count(Primitive::Kind::Strip), 16); // one a step of the fading
   EXPECT_EQ(count(Primitive::Kind::Ring), 1);
+}
+
+/// What a scene's texts consist of: where each letter stands, and how large it is.
+std::vector<std::array<double, 4>> lettersOf(const std::string& text, double time = 0.0) {
+  SceneSource source = sourceOf(text);
+  source.show({.moment = {static_cast<std::int64_t>(std::lround(60.0 * time)), 0.0}, .time = time});
+  Picture picture;
+  source.draw(picture);
+  std::vector<std::array<double, 4>> letters;
+  for (const Primitive& primitive : picture.primitives)
+    if (primitive.kind == Primitive::Kind::Mask)
+      letters.push_back({primitive.low.x(), primitive.low.y(), primitive.high.x(), primitive.high.y()});
+  return letters;
+}
+
+std::string cameraTo(const std::string& center, double zoom) {
+  return fmt::format("[[camera]]\nat = 0\nfor = 0\ncenter = {}\nzoom = {}\n", center, zoom);
+}
+
+/// Those of a grid that lies there by itself: at the lines in sight, at the frame's edge where no axis is.
+TEST(Overlay, ACamerasGridHasItsNumbersAtTheLinesInSight) {
+  struct Case {
+    const char* center;
+    double zoom;
+    const char* view;
+  };
+  for (const Case& each : {Case{"[300, 200]", 2.0, "pixels_per_metre = 2\norigin = [-280, -160]"},
+                           Case{"[900, 500]", 1.0, "pixels_per_metre = 1\norigin = [-580, -260]"},
+                           Case{"[300, 200]", 0.5, "pixels_per_metre = 0.5\norigin = [170, 140]"},
+                           Case{"[-250, 130]", 4.0, "pixels_per_metre = 4\norigin = [1320, -280]"}}) {
+    const std::string grid = "duration = 1\n[grid]\nstep = 100\n";
+    const auto moved = lettersOf(grid + cameraTo(each.center, each.zoom));
+    const auto still = lettersOf(grid + "[view]\n" + each.view + "\n");
+    EXPECT_GE(moved.size(), 6U) << each.view;
+    EXPECT_EQ(moved, still) << each.view;
+  }
+}
+
+/// px of the frame: around a ruler's length.
+struct Label {
+  Vec2 low, high;
+};
+Label labelOf(const std::string& text, double time) {
+  Label label{Vec2::Constant(1e9), Vec2::Constant(-1e9)};
+  for (const auto& [left, top, right, bottom] : lettersOf(text, time)) {
+    label.low = label.low.cwiseMin(Vec2(left, top));
+    label.high = label.high.cwiseMax(Vec2(right, bottom));
+  }
+  return label;
+}
+
+TEST(Overlay, ACamerasRulerHasItsLengthBesideItAtItsSize) {
+  const std::string bodies = "duration = 1\n[[body]]\nname = \"ball\"\ncenter = [300, 250]\nradius = 10\n"
+                             "velocity = [200, 0]\n";
+  struct Case {
+    const char* to;
+    Vec2 middle; ///< px of the pane at 0.5 s
+  };
+  for (const Case& ruler : {Case{"[400, 250]", {325.0, 250.0}}, Case{"\"ball\"", {325.0, 250.0}}}) {
+    const std::string scene = bodies + "[[ruler]]\nfrom = [250, 250]\nto = " + ruler.to + "\nunit = \"px\"\n";
+    const Label plain = labelOf(scene, 0.5);
+    for (const double zoom : {0.5, 1.0, 2.0}) {
+      const Label moved = labelOf(scene + cameraTo("[300, 200]", zoom), 0.5);
+      const Vec2 line = (ruler.middle - Vec2(300, 200)) * zoom + Vec2(320, 240);
+      EXPECT_NEAR(0.5 * (moved.low.x() + moved.high.x()), line.x(), 2.0) << ruler.to << " at " << zoom;
+      // Above the ticks, which the camera makes longer.
+      EXPECT_NEAR(line.y() - 9.0 * zoom - moved.high.y(), 250.0 - 9.0 - plain.high.y(), 1.5)
+          << ruler.to << " at " << zoom;
+      EXPECT_NEAR(moved.high.x() - moved.low.x(), plain.high.x() - plain.low.x(), 2.0) << zoom;
+      EXPECT_NEAR(moved.high.y() - moved.low.y(), plain.high.y() - plain.low.y(), 1.0) << zoom;
+    }
+  }
 }
 
 TEST(Overlay, TellsWhatIsWrong) {

@@ -45,4 +45,9 @@ Viewport Camera::at(double time, const Viewport& home, const PositionOf& positio
   return viewport;
 }
 
+Vec2 shownAt(const Vec2& point, const Viewport& home, const Viewport& camera) {
+  if (camera.scale == home.scale && camera.offset == home.offset) return point;
+  return (point * camera.scale + camera.offset - home.offset) / home.scale;
+}
+
 } // namespace offstage

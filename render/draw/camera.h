@@ -35,4 +35,8 @@ private:
   Vec2 pane_;
 };
 
+/// The point of the pane (px) at which `home` shows what `camera` shows of `point`: where a text that keeps
+/// its size stands beside what the camera moves. `point` itself where the two are the same.
+Vec2 shownAt(const Vec2& point, const Viewport& home, const Viewport& camera);
+
 } // namespace offstage

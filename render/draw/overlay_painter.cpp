@@ -1,6 +1,7 @@
 #include "render/draw/overlay_painter.h"
 
 #include "render/draw/axis.h"
+#include "render/draw/camera.h"
 #include "render/draw/pen.h"
 #include "render/draw/simplify.h"
 #include "src/scene/palette.h"
@@ -161,30 +162,34 @@ void OverlayPainter::grid(Picture& picture, const GridOverlay& grid, const Now& 
   if (grid.labels) gridLabels(picture, grid, now);
 }
 
-/// Numbers beside the axes, or beside the pane's nearest edge where an axis is not in sight. Of lines that
-/// stand closer than three em only every second, fifth or tenth … has one.
+/// Numbers beside the axes, or beside the frame's nearest edge where an axis is not in sight. Of lines that
+/// stand closer than three em only every second, fifth or tenth … has one. All lengths are px of the frame: a
+/// camera moves the lines, the numbers go with them and keep their size.
 void OverlayPainter::gridLabels(Picture& picture, const GridOverlay& grid, const Now& now) const {
-  const Viewport& viewport = now.painter.viewport();
+  const Viewport& frame = now.texts.viewport();
+  const Viewport& camera = now.painter.viewport();
   const OverlayUnits& units = overlays_.units;
-  const Vec2 low = toPane(viewport, Vec2(viewport.clip.left, viewport.clip.top));
-  const Vec2 high = toPane(viewport, Vec2(viewport.clip.right, viewport.clip.bottom));
+  const Vec2 origin = shownAt(units.origin, frame, camera);
+  const double between = grid.step * (camera.scale / frame.scale);
+  const Vec2 low = toPane(frame, Vec2(frame.clip.left, frame.clip.top));
+  const Vec2 high = toPane(frame, Vec2(frame.clip.right, frame.clip.bottom));
   const double em = grid.labelSize;
-  const double every = roundStep(std::max(3.0 * em / grid.step, 1.0));
+  const double every = roundStep(std::max(3.0 * em / between, 1.0));
   const double step = grid.step / units.pixels;
   TextLook look;
   look.size = em;
   look.color = grid.axisColor;
   for (int axis = 0; axis < 2; ++axis) {
-    const double across = std::clamp(units.origin[1 - axis], low[1 - axis], high[1 - axis]);
-    // Below a horizontal axis and left of a vertical one, but inside the pane.
+    const double across = std::clamp(origin[1 - axis], low[1 - axis], high[1 - axis]);
+    // Below a horizontal axis and left of a vertical one, but inside the frame.
     const bool outside = axis == 0 ? across + 2.0 * em > high[1] : across - 3.0 * em < low[0];
     if (axis == 0) look.anchor = outside ? NinePosition::Bottom : NinePosition::Top;
     if (axis == 1) look.anchor = outside ? NinePosition::Left : NinePosition::Right;
     const double away = (axis == 0) == outside ? -0.4 * em : 0.4 * em;
     const double sign = axis == 1 && units.yUp ? -1.0 : 1.0;
-    for (double k = std::ceil((low[axis] - units.origin[axis]) / grid.step / every) * every;
-         units.origin[axis] + k * grid.step <= high[axis]; k += every) {
-      const double at = units.origin[axis] + k * grid.step;
+    for (double k = std::ceil((low[axis] - origin[axis]) / between / every) * every;
+         origin[axis] + k * between <= high[axis]; k += every) {
+      const double at = origin[axis] + k * between;
       if (k == 0.0 || at < low[axis] + em || at > high[axis] - em) continue;
       Vec2 place;
       place[axis] = at;
@@ -335,8 +340,11 @@ void OverlayPainter::ruler(Picture& picture, const RulerOverlay& ruler, const No
   look.size = ruler.labelSize;
   look.color = ruler.color;
   look.anchor = std::abs(beside.x()) > 0.5 ? NinePosition::Left : NinePosition::Bottom;
-  const double away = kLongTick + 0.3 * ruler.labelSize;
-  now.texts.draw(picture, text, look, *from + ahead * (0.5 * whole) + beside * away, 1.0, true);
+  // A camera makes the ticks longer, and not the text.
+  const Viewport& frame = now.texts.viewport();
+  const double away = kLongTick * (viewport.scale / frame.scale) + 0.3 * ruler.labelSize;
+  const Vec2 middle = shownAt(*from + ahead * (0.5 * whole), frame, viewport);
+  now.texts.draw(picture, text, look, middle + beside * away, 1.0, true);
 }
 
 } // namespace offstage

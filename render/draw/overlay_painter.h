@@ -23,8 +23,8 @@ public:
     double time; ///< s
     std::span<const Body> bodies;
     const OverlayHistory& history;
-    const Painter& painter;   ///< its looks are those of Body::look
-    const TextPainter& texts; ///< of the same viewport
+    const Painter& painter;   ///< its looks are those of Body::look, its viewport is the camera's
+    const TextPainter& texts; ///< of the viewport without a camera: numbers keep their size
   };
   void paint(Picture& picture, OverlayLayer layer, const Now& now) const;
 

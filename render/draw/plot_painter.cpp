@@ -1,16 +1,20 @@
 #include "render/draw/plot_painter.h"
 
+#include "render/draw/fit_text.h"
 #include "render/draw/pen.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace offstage {
 namespace {
 
 constexpr double kTolerance = 0.1; ///< px that a curve may lie beside its points
+constexpr double kDisc = 1.8;      ///< the present's radius, in widths of the curve
+constexpr double kLeastAxes = 0.2; ///< of the area's height, where a legend stands above
 
 Rgba8 bytes(const Color& color) {
   return {color.red, color.green, color.blue, color.alphaByte()};
@@ -32,6 +36,25 @@ struct Extent {
   }
 };
 
+/// Whether a line goes through a rectangle. (Liang and Barsky, A new concept and method for line clipping,
+/// 1984.)
+bool crosses(const Vec2& from, const Vec2& to, const Vec2& low, const Vec2& high) {
+  double enters = 0.0;
+  double leaves = 1.0;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double along = to[axis] - from[axis];
+    if (along == 0.0) {
+      if (from[axis] < low[axis] || from[axis] > high[axis]) return false;
+      continue;
+    }
+    const double one = (low[axis] - from[axis]) / along;
+    const double other = (high[axis] - from[axis]) / along;
+    enters = std::max(enters, std::min(one, other));
+    leaves = std::min(leaves, std::max(one, other));
+  }
+  return enters <= leaves;
+}
+
 } // namespace
 
 void append(Picture& picture, const Picture& part) {
@@ -51,9 +74,14 @@ void append(Picture& picture, const Picture& part) {
 
 PlotPainter::PlotPainter(const Plot& plot, std::vector<const PlotData::Points*> curves,
                          const Viewport& viewport, const TextPainter& texts)
-    : plot_(plot), curves_(std::move(curves)), viewport_(viewport), texts_(texts) {
+    : plot_(plot),
+      curves_(std::move(curves)),
+      viewport_(viewport),
+      texts_(texts),
+      legend_(plot, viewport, texts) {
   makeAxes();
   layOut();
+  if (plot_.legend) placeLegend();
   drawFrame(still_);
   grown_.assign(plot_.curves.size(), Grown{.open = PathSimplifier(kTolerance)});
 }
@@ -69,7 +97,7 @@ void PlotPainter::makeAxes() {
   }
   // About one tick for every six letters' width, and every two lines' height.
   const int columns = std::max(static_cast<int>(plot_.area[2] / (5.0 * plot_.textSize)), 2);
-  const int rows = std::max(static_cast<int>(plot_.area[3] / (2.6 * plot_.textSize)), 2);
+  const int rows = std::max(static_cast<int>((plot_.area[3] - legendHeight_) / (2.6 * plot_.textSize)), 2);
   const auto make = [](const PlotAxis& axis, const Extent& extent, int most) {
     if (axis.range) return Axis((*axis.range)[0], (*axis.range)[1], axis.log);
     return Axis::around(extent.least, extent.greatest, axis.log, most);
@@ -89,11 +117,52 @@ TextLook PlotPainter::textLook(NinePosition anchor, double size) const {
 }
 
 void PlotPainter::text(Picture& picture, const std::string& text, const Vec2& outputPoint,
-                       NinePosition anchor, double size, bool upwards) const {
+                       NinePosition anchor, double size) const {
   if (text.empty()) return;
-  TextLook look = textLook(anchor, size);
-  look.upwards = upwards;
-  texts_.draw(picture, text, look, (outputPoint - viewport_.offset) / viewport_.scale);
+  texts_.draw(picture, text, textLook(anchor, size), (outputPoint - viewport_.offset) / viewport_.scale);
+}
+
+/// In a corner that no curve goes through in the whole run, so that it stands still and hides nothing; where
+/// there is none, in rows of its own above the axes. Where these would take too much of a small plot, it is
+/// in the corner that shows the least.
+void PlotPainter::placeLegend() {
+  const auto crossing = [this](const Vec2& low, const Vec2& high) { return pointsIn(low, high); };
+  if (legend_.toFreeCorner(inner_.low, inner_.high, crossing)) return;
+  const double em = plot_.textSize * viewport_.scale;
+  const double left = plot_.area[0] * viewport_.scale + viewport_.offset.x();
+  const double top = plot_.area[1] * viewport_.scale + viewport_.offset.y();
+  const double right = left + plot_.area[2] * viewport_.scale;
+  const auto toRows = [&] {
+    return legend_.toRows(left + 0.6 * em, right - 0.6 * em, 0.5 * (inner_.low.x() + inner_.high.x()),
+                          top + (plot_.title.empty() ? 0.35 : 2.0) * em);
+  };
+  legendHeight_ = toRows() / viewport_.scale;
+  if (legendHeight_ + kLeastAxes * plot_.area[3] <= (inner_.high.y() - inner_.low.y()) / viewport_.scale) {
+    makeAxes(); // fewer ticks
+    layOut();
+    static_cast<void>(toRows()); // the middle of these axes
+    return;
+  }
+  legendHeight_ = 0.0;
+  legend_.toBestCorner(inner_.low, inner_.high, crossing);
+}
+
+/// How many pieces of the curves show themselves in a rectangle of the output, in whichever frame: with their
+/// width, or the present's disc.
+std::size_t PlotPainter::pointsIn(const Vec2& low, const Vec2& high) const {
+  const double reach = (plot_.cursor ? kDisc : 0.5) * plot_.width * viewport_.scale;
+  const Vec2 from = low - Vec2::Constant(reach);
+  const Vec2 to = high + Vec2::Constant(reach);
+  std::size_t count = 0;
+  for (const PlotData::Points* points : curves_) {
+    std::optional<Vec2> before;
+    for (const PlotData::Point& point : *points) {
+      const std::optional<Vec2> at = reached(point);
+      if (at && crosses(before.value_or(*at), *at, from, to)) ++count;
+      before = at;
+    }
+  }
+  return count;
 }
 
 /// Leaves room for what stands around the axes.
@@ -107,7 +176,7 @@ void PlotPainter::layOut() {
     lastHalf = 0.5 * texts_.measure(xTicks_.back().label, textLook(NinePosition::Top, em)).x();
   const double left = 0.6 * em + widest + 0.5 * em + (plot_.y.label.empty() ? 0.0 : 1.5 * em);
   const double right = std::max(0.9 * em, lastHalf + 0.3 * em);
-  const double top = plot_.title.empty() ? 0.9 * em : 2.4 * em;
+  const double top = (plot_.title.empty() ? 0.9 * em : 2.4 * em) + legendHeight_;
   const double bottom = 2.1 * em + (plot_.x.label.empty() ? 0.0 : 1.4 * em);
   const Vec2 low(plot_.area[0] + left, plot_.area[1] + top);
   const Vec2 high(plot_.area[0] + plot_.area[2] - right, plot_.area[1] + plot_.area[3] - bottom);
@@ -121,6 +190,14 @@ void PlotPainter::layOut() {
 Vec2 PlotPainter::place(const PlotData::Point& point) const {
   return {inner_.low.x() + x_.place(point.x) * (inner_.high.x() - inner_.low.x()),
           inner_.high.y() - y_.place(point.y) * (inner_.high.y() - inner_.low.y())};
+}
+
+/// Where a curve goes for a point: to its place, or towards it far enough to be clipped. Nothing at a gap.
+std::optional<Vec2> PlotPainter::reached(const PlotData::Point& point) const {
+  const Vec2 at = place(point);
+  if (!std::isfinite(at.x()) || !std::isfinite(at.y())) return std::nullopt;
+  const Vec2 reach = Vec2::Constant(4.0 * length(inner_.high - inner_.low));
+  return Vec2(at.cwiseMax(inner_.low - reach).cwiseMin(inner_.high + reach));
 }
 
 void PlotPainter::drawFrame(Picture& picture) const {
@@ -150,45 +227,49 @@ void PlotPainter::drawFrame(Picture& picture) const {
   pen.line({inner_.low.x(), sharp(inner_.high.y(), line)}, {inner_.high.x(), sharp(inner_.high.y(), line)});
   pen.line({sharp(inner_.low.x(), line), inner_.low.y()}, {sharp(inner_.low.x(), line), inner_.high.y()});
   const Vec2 middle = 0.5 * (inner_.low + inner_.high);
-  text(picture, plot_.x.label, {middle.x(), corner.y() + size.y() - 0.35 * em * scale}, NinePosition::Bottom,
-       em);
-  text(picture, plot_.y.label, {corner.x() + 0.35 * em * scale, middle.y()}, NinePosition::Left, em, true);
-  text(picture, plot_.title, {middle.x(), corner.y() + 0.5 * em * scale}, NinePosition::Top, 1.15 * em);
+  label(picture, plot_.x.label, {middle.x(), corner.y() + size.y() - 0.35 * em * scale},
+        textLook(NinePosition::Bottom, em));
+  label(picture, plot_.title, {middle.x(), corner.y() + 0.5 * em * scale},
+        textLook(NinePosition::Top, 1.15 * em));
+  TextLook upwards = textLook(NinePosition::Left, em);
+  upwards.upwards = true;
+  label(picture, plot_.y.label, {corner.x() + 0.35 * em * scale, middle.y()}, upwards);
 }
 
-/// In the upper right corner of the axes, over the curves.
-void PlotPainter::drawLegend(Picture& picture) const {
+/// A text in the middle of the axes. One that would leave the area so is moved along, and set smaller or cut
+/// where that is not enough; then it also keeps clear of what stands around the corner.
+void PlotPainter::label(Picture& picture, const std::string& text, Vec2 at, const TextLook& look) const {
+  if (text.empty()) return;
+  const int axis = look.upwards ? 1 : 0;
   const double scale = viewport_.scale;
-  const double em = plot_.textSize;
-  double widest = 0.0;
-  for (const PlotCurve& curve : plot_.curves)
-    widest = std::max(widest, texts_.measure(curve.name, textLook(NinePosition::Left, em)).x());
-  const auto lines = static_cast<double>(plot_.curves.size());
-  const Vec2 size = Vec2(widest + 3.1 * em, (1.35 * lines + 0.5) * em) * scale;
-  const Vec2 corner(inner_.high.x() - size.x() - 0.4 * em * scale, inner_.low.y() + 0.4 * em * scale);
-  Rgba8 ground = bytes(plot_.background);
-  ground.a = static_cast<std::uint8_t>(std::min<int>(ground.a, 215));
-  Pen(picture, 1.0, ground).rectangle(corner, corner + size);
-  double y = corner.y() + (0.25 + 0.675) * em * scale;
-  for (const PlotCurve& curve : plot_.curves) {
-    const double x = corner.x() + 0.5 * em * scale;
-    Pen(picture, std::max(plot_.width, 0.15 * em) * scale, bytes(curve.color))
-        .line({x, std::round(y)}, {x + 1.7 * em * scale, std::round(y)});
-    text(picture, curve.name, {x + 2.2 * em * scale, y}, NinePosition::Left, em);
-    y += 1.35 * em * scale;
+  double low = plot_.area[static_cast<std::size_t>(axis)] * scale + viewport_.offset[axis];
+  const double high = low + plot_.area[static_cast<std::size_t>(axis) + 2] * scale;
+  if (look.upwards) low += legendHeight_ * scale;
+  FittedText fitted{text, look};
+  double half = 0.5 * texts_.measure(text, look)[axis] * scale;
+  if (at[axis] - half < low || at[axis] + half > high) {
+    const double em = plot_.textSize * scale;
+    const double margin = 0.35 * em;
+    const double row = 1.75 * em; // what a label takes up
+    const bool yLabel = !plot_.y.label.empty();
+    double from = low + (!look.upwards && yLabel ? row : margin);
+    double to = high - (look.upwards && !plot_.x.label.empty() ? row : margin);
+    if (look.upwards && !plot_.title.empty()) from += row;
+    to = std::max(to, from);
+    fitted = fitText(texts_, text, look, (to - from) / scale, kLeastShare * look.size);
+    half = 0.5 * texts_.measure(fitted.text, fitted.look)[axis] * scale;
+    at[axis] = std::clamp(at[axis], from + half, std::max(to - half, from + half));
   }
+  if (!fitted.text.empty()) texts_.draw(picture, fitted.text, fitted.look, (at - viewport_.offset) / scale);
 }
 
 void PlotPainter::grow(Grown& grown, std::size_t curve, std::size_t frames) const {
   const PlotData::Points& points = *curves_[curve];
   const std::size_t end = std::min(frames, points.size());
   if (end < grown.frames) grown = Grown{.open = PathSimplifier(kTolerance)};
-  const double reach = 4.0 * length(inner_.high - inner_.low); // far enough out to be clipped
   for (; grown.frames < end; ++grown.frames) {
-    const Vec2 at = place(points[grown.frames]);
-    if (std::isfinite(at.x()) && std::isfinite(at.y())) {
-      grown.open.add(
-          at.cwiseMax(inner_.low - Vec2::Constant(reach)).cwiseMin(inner_.high + Vec2::Constant(reach)));
+    if (const std::optional<Vec2> at = reached(points[grown.frames])) {
+      grown.open.add(*at);
       continue;
     }
     // There is a gap.
@@ -218,7 +299,7 @@ void PlotPainter::draw(Picture& picture, std::span<const std::int64_t> frames) c
     drawCurve(picture, curve,
               plot_.whole ? curves_[curve]->size() : static_cast<std::size_t>(frames[curve]) + 1, clip);
   if (plot_.cursor) drawPresent(picture, frames, clip);
-  if (plot_.legend) drawLegend(picture);
+  if (plot_.legend) legend_.draw(picture);
 }
 
 /// A disc at each curve's present, over a line at the latest of them where they are over time.
@@ -240,7 +321,7 @@ void PlotPainter::drawPresent(Picture& picture, std::span<const std::int64_t> fr
   for (std::size_t curve = 0; curve < curves_.size(); ++curve) {
     if (discs[curve].allFinite())
       Pen(picture, line, bytes(plot_.curves[curve].color), clip)
-          .disc(discs[curve], 1.8 * plot_.width * viewport_.scale);
+          .disc(discs[curve], kDisc * plot_.width * viewport_.scale);
   }
 }
 

@@ -2,12 +2,14 @@
 
 #include "render/draw/axis.h"
 #include "render/draw/plot_data.h"
+#include "render/draw/plot_legend.h"
 #include "render/draw/simplify.h"
 #include "render/draw/text_painter.h"
 #include "src/scene/plot.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,15 +39,18 @@ private:
 
   void makeAxes();
   void layOut();
+  void placeLegend();
+  [[nodiscard]] std::size_t pointsIn(const Vec2& low, const Vec2& high) const;
   void drawFrame(Picture& picture) const;
-  void drawLegend(Picture& picture) const;
   void grow(Grown& grown, std::size_t curve, std::size_t frames) const;
   void drawCurve(Picture& picture, std::size_t curve, std::size_t frames, std::int32_t clip) const;
   void drawPresent(Picture& picture, std::span<const std::int64_t> frames, std::int32_t clip) const;
   [[nodiscard]] Vec2 place(const PlotData::Point& point) const;
+  [[nodiscard]] std::optional<Vec2> reached(const PlotData::Point& point) const;
   [[nodiscard]] TextLook textLook(NinePosition anchor, double size) const;
   void text(Picture& picture, const std::string& text, const Vec2& outputPoint, NinePosition anchor,
-            double size, bool upwards = false) const;
+            double size) const;
+  void label(Picture& picture, const std::string& text, Vec2 at, const TextLook& look) const;
 
   Plot plot_;
   std::vector<const PlotData::Points*> curves_;
@@ -55,6 +60,8 @@ private:
   Axis y_{0.0, 1.0, false};
   std::vector<Axis::Tick> xTicks_, yTicks_;
   Inner inner_{};
+  PlotLegend legend_;
+  double legendHeight_ = 0.0;        ///< px: above the axes
   Picture still_;                    ///< what is the same in all frames
   mutable std::vector<Grown> grown_; ///< by curve
 };

@@ -1,5 +1,6 @@
 #include "render/draw/scene_texts.h"
 
+#include "render/draw/camera.h"
 #include "render/draw/formula.h"
 #include "src/sim/birth.h"
 #include "src/sim/force_field.h"
@@ -20,12 +21,6 @@ std::string charactersOf(const TextTemplate& text) {
   std::string all;
   for (const TextTemplate::Piece& piece : text.pieces) all += piece.text;
   return all;
-}
-
-/// The point of the pane at which `home` shows what `camera` shows of `point`.
-Vec2 shownAt(const Vec2& point, const Viewport& home, const Viewport& camera) {
-  if (camera.scale == home.scale && camera.offset == home.offset) return point;
-  return (point * camera.scale + camera.offset - home.offset) / home.scale;
 }
 
 /// Where on the pane an item's anchor is; nothing while the body that it belongs to is not there.

@@ -17,6 +17,8 @@ class TextPainter {
 public:
   explicit TextPainter(const Viewport& viewport) : viewport_(viewport) {}
 
+  [[nodiscard]] const Viewport& viewport() const { return viewport_; }
+
   /// Reads the look's font, unless it is known, and holds it against a text. Throws as FontLibrary::get() and
   /// requireGlyphs() do.
   void require(const TextLook& look, std::string_view text, bool whole = true) const;

@@ -1,5 +1,7 @@
 #include "render/draw/title_card.h"
 
+#include "render/draw/fit_text.h"
+
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -46,13 +48,6 @@ TitleCard::TitleCard(const Scene& scene, const Viewport& viewport)
   if (!problems.empty()) throw SceneError(std::move(problems));
 }
 
-TextLook TitleCard::fitted(std::string_view text, TextLook look) const {
-  const double width = painter_.measure(text, look).x();
-  const double room = pane_.x() * (1.0 - 2.0 * kMargin);
-  if (width > room) look.size = std::max(look.size * room / width, kLeastSize);
-  return look;
-}
-
 void TitleCard::draw(Picture& picture, std::string_view title, std::string_view subtitle,
                      double share) const {
   Primitive ground;
@@ -63,10 +58,12 @@ void TitleCard::draw(Picture& picture, std::string_view title, std::string_view 
   picture.primitives.push_back(ground);
   const Vec2 middle = pane_ * 0.5;
   const Vec2 down(0.0, 0.5 * kSubtitleBelow * pane_.y());
-  painter_.draw(picture, title, fitted(title, titleLook_), subtitle.empty() ? middle : Vec2(middle - down),
-                share);
-  if (!subtitle.empty())
-    painter_.draw(picture, subtitle, fitted(subtitle, subtitleLook_), middle + down, share);
+  const auto line = [&](std::string_view text, const TextLook& look, const Vec2& at) {
+    const FittedText fitted = fitText(painter_, text, look, pane_.x() * (1.0 - 2.0 * kMargin), kLeastSize);
+    painter_.draw(picture, fitted.text, fitted.look, at, share);
+  };
+  line(title, titleLook_, subtitle.empty() ? middle : Vec2(middle - down));
+  if (!subtitle.empty()) line(subtitle, subtitleLook_, middle + down);
 }
 
 } // namespace offstage

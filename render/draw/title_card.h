@@ -19,9 +19,6 @@ public:
   void draw(Picture& picture, std::string_view title, std::string_view subtitle, double share) const;
 
 private:
-  /// `size` (px), or as much less as makes the text fit the pane's width less its margins.
-  [[nodiscard]] TextLook fitted(std::string_view text, TextLook look) const;
-
   Vec2 pane_; ///< px
   PixelRect clip_;
   Color background_;

@@ -1,5 +1,6 @@
 #include "render/job/panel_set.h"
 
+#include "render/draw/fit_text.h"
 #include "render/draw/pen.h"
 #include "render/job/fingerprint.h"
 #include "render/job/scene_source.h"
@@ -14,6 +15,7 @@
 namespace offstage {
 namespace {
 
+constexpr double kDotRadius = 0.3; ///< em of a panel's title; it takes up three
 constexpr double kRounding = 1e-9; ///< s: a frame that is due up to rounding is due
 
 /// The part of the output in which pane number `index` is drawn. It starts on a whole pixel, so that what is
@@ -62,7 +64,7 @@ void PanelSet::frame(Picture& picture, const PixelRect& pane) const {
   picture.primitives.push_back(line);
 }
 
-/// Above each pane; of overlaid panels a legend, line below line.
+/// Above each pane and no wider than it; of overlaid panels a legend, line below line.
 void PanelSet::makeCaptions(const Scene& scene) {
   const Panels& panels = scene.panels;
   const bool overlaid = panels.layout == Panels::Layout::Overlaid;
@@ -79,6 +81,10 @@ void PanelSet::makeCaptions(const Scene& scene) {
     const auto place = panels.place(i, scene.size[0], scene.size[1]);
     if (!overlaid) caption.at = Vec2(place[0] + 0.5 * place[2], place[1] - 0.5 * line);
     texts_.require(caption.look, caption.text);
+    FittedText fitted = fitText(texts_, caption.text, caption.look, overlaid ? place[2] - line : place[2],
+                                kLeastShare * caption.look.size, caption.dot ? 3.0 * kDotRadius : 0.0);
+    caption.text = std::move(fitted.text);
+    caption.look = fitted.look;
     captions_.push_back(std::move(caption));
   }
 }
@@ -88,7 +94,7 @@ void PanelSet::drawCaptions(Picture& picture) const {
   for (const Caption& caption : captions_) {
     Vec2 at = caption.at;
     if (caption.dot) {
-      const double radius = 0.3 * caption.look.size;
+      const double radius = kDotRadius * caption.look.size;
       const bool centered = caption.look.anchor == NinePosition::Center;
       const double width = texts_.measure(caption.text, caption.look).x();
       const double left = centered ? at.x() - 0.5 * (width + 3.0 * radius) : at.x();

@@ -40,8 +40,8 @@ struct Plot {
   bool whole = false;     ///< the curves are drawn to the end from the start
   bool cursor = true;     ///< shows the present
   bool grid = true;
-  bool legend = true;
-  Color ink{}; ///< of axes, numbers and titles
+  bool legend = true; ///< the curves' names, where they hide no curve; see PlotLegend
+  Color ink{};        ///< of axes, numbers and titles
   Color gridColor{};
   Color background{};
 };
