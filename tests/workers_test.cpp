@@ -1,4 +1,5 @@
 #include "render/job/workers.h"
+#include "tests/support/process.h"
 #include "tests/support/temp_dir.h"
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <sys/resource.h>
 #include <thread>
 #include <unistd.h>
 #include <utility>
@@ -158,6 +160,31 @@ TEST(Workers, EndWhereSteppingOverWhatOthersMakeTakesLong) {
   EXPECT_NE(processOf(0), processOf(2));
   EXPECT_NE(processOf(0), processOf(3));
   EXPECT_EQ(begun.back().chunk, 3) << "the simulation has not come to the last chunk before";
+}
+
+/// s, of all children that have been waited for, and theirs.
+double childrensSeconds() {
+  rusage used{};
+  getrusage(RUSAGE_CHILDREN, &used);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
+/// What measures a render, or limits it, sees all of it: no worker is left to others when the command ends.
+TEST(Workers, CountTheirProcessorTimeWithTheCommands) {
+  const TempDir dir;
+  const auto secondsWith = [&](const char* jobs) {
+    const double before = childrensSeconds();
+    const ProcessResult result = offstage({"render", scene("exercise2_bounce"), "--to", "4", "--size",
+                                           "1280x960", "-o", dir / "%04d.png", "--jobs", jobs});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return childrensSeconds() - before;
+  };
+  const double alone = secondsWith("0");
+  EXPECT_GT(alone, 0.05);
+  for (const char* jobs : {"1", "2"}) EXPECT_GT(secondsWith(jobs), 0.6 * alone) << jobs;
 }
 
 } // namespace

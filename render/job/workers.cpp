@@ -217,10 +217,11 @@ public:
     simulator_ = forkChild(job.state, [&] { Simulator(job, chunks, source, jobs, line_).run(); });
     line_.letGo();
   }
-  /// Ends all of them, if they have not.
+  /// Ends all of them, if they have not. Where all is made they are left to end by themselves: the simulating
+  /// process takes note of its workers, so that their processor time is counted with this one's.
   ~Round() {
     if (simulator_ > 0) {
-      kill(simulator_, SIGKILL);
+      if (!made_) kill(simulator_, SIGKILL);
       waitFor(simulator_);
     }
     line_.awaitEnd();
@@ -235,6 +236,7 @@ public:
       state_.rethrow();
       tick();
     }
+    made_ = now == LifeLine::State::Made;
     if (now == LifeLine::State::Ended) {
       const int status = waitFor(simulator_);
       simulator_ = -1;
@@ -249,6 +251,7 @@ private:
   SharedState& state_;
   LifeLine line_;
   pid_t simulator_ = -1;
+  bool made_ = false; ///< every chunk
 };
 
 std::vector<std::int64_t> withoutFile(const ChunkJob& job, const std::vector<std::int64_t>& chunks) {
