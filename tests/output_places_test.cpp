@@ -80,6 +80,7 @@ TEST(OutputPlaces, NoCommandReplacesWhatTheSceneIsMadeWith) {
   dir.write("replay.toml", "[frame]\nsize = [64, 48]\n[replay]\ntrace = \"t.csv\"\n");
   const std::vector<std::string> names = dir.names();
   std::vector<std::string> before;
+  before.reserve(names.size());
   for (const std::string& name : names) before.push_back(readFile(dir / name));
   for (const std::vector<std::string>& arguments :
        std::vector<std::vector<std::string>>{{"trace", "s.toml", "-o", "./bodies.csv"},

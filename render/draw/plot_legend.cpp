@@ -123,11 +123,12 @@ double PlotLegend::toRows(double left, double right, double middle, double top) 
   const double begin = std::clamp(middle - 0.5 * ends.back(), left, std::max(left, right - ends.back()));
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const std::size_t column = i % count;
-    const auto row = static_cast<double>(i / count);
+    const std::size_t row = i / count;
     entries_[i].at = {begin + (column == 0 ? 0.0 : ends[column - 1] + kApart * em_),
-                      top + (row + 0.5) * kRow * em_};
+                      top + (static_cast<double>(row) + 0.5) * kRow * em_};
   }
-  return static_cast<double>((entries_.size() + count - 1) / count) * kRow * em_;
+  const std::size_t rows = (entries_.size() + count - 1) / count;
+  return static_cast<double>(rows) * kRow * em_;
 }
 
 void PlotLegend::draw(Picture& picture) const {
