@@ -73,13 +73,16 @@ TEST_F(DiffCommand, ReplacesNothingThatItCompares) {
   const std::string frames = folder("frames", 2, 2);
   const std::string trace =
       dir_.write("t.csv", "frame,id,time,x,y,vx,vy,radius,group\n0,0,0,1,2,3,4,5,\n").string();
+  const std::string tolerance = dir_.write("tol.toml", "max_channel = 3\n").string();
   for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
            {a, b, "--strip", a},
            {a, b, "--strip", path("frames/../b.png")},
            {a, b, "--strip", path("x.png"), "--junit", path("x.png")},
            {frames, frames, "--strip", path("frames/worst.png")},
            {frames, path("frames/f%d.png"), "--strip", path("frames/f1.png")},
-           {trace, trace, "--junit", trace}}) {
+           {trace, trace, "--junit", trace},
+           {a, b, "--tolerance", tolerance, "--junit", tolerance},
+           {a, a, "--mask", b, "--strip", b}}) {
     std::vector<std::string> command{"diff"};
     command.insert(command.end(), arguments.begin(), arguments.end());
     const auto before = std::pair(readFile(a), readFile(b));

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <variant>
 
 #include <fmt/format.h>
@@ -56,7 +57,11 @@ void requireApart(const OutputPlace& output, std::string_view what, const fs::pa
 }
 
 void requireApart(const OutputPlace& output, const Scene& scene) {
-  visitFiles(scene, [&](std::string_view what, const fs::path& file) { requireApart(output, what, file); });
+  if (output.out.empty()) return;
+  std::set<fs::path> asked; // thousands of looks may share an image
+  visitFiles(scene, [&](std::string_view what, const fs::path& file) {
+    if (asked.insert(file).second) requireApart(output, what, file);
+  });
 }
 
 } // namespace offstage

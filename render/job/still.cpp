@@ -19,7 +19,7 @@ double videoSeconds(const Source& source) {
   return source.film() != nullptr ? source.film()->seconds : source.clock().duration();
 }
 
-Shot shotAt(const Source& source, double at) {
+Shot shotAt(const Source& source, double at, std::optional<double> fps) {
   const Film* film = source.film();
   const bool retimed = film != nullptr && film->map;
   const double end = videoSeconds(source);
@@ -27,6 +27,7 @@ Shot shotAt(const Source& source, double at) {
     throw Error(ExitCode::BadInput, fmt::format("--at {} does not lie within the {}'s 0 … {} s", at,
                                                 retimed ? "video" : "scene", end));
   if (!retimed) {
+    if (fps && !source.clock().isFixed()) at = std::floor((at + kRounding) * *fps) / *fps;
     const std::int64_t frame = source.clock().frameAt(at + kRounding);
     return {{frame, 0.0}, source.clock().time(frame)};
   }
@@ -44,11 +45,11 @@ Frame drawFrame(Source& source, double at) {
   return frame;
 }
 
-Still drawStill(SceneSource& source, double at, int strobe) {
+Still drawStill(SceneSource& source, double at, int strobe, std::optional<double> fps) {
   // Moments from the video's beginning to `at`, later ones on top.
   for (int moment = 0; moment < strobe; ++moment) {
     const double share = strobe == 1 ? 1.0 : static_cast<double>(moment) / static_cast<double>(strobe - 1);
-    source.show(shotAt(source, at * share));
+    source.show(shotAt(source, at * share, fps));
     if (strobe > 1) source.keepMoment();
   }
   Picture picture;

@@ -79,6 +79,9 @@ void requireOutside(const OutputPlace& output, const Arguments& arguments) {
       throw Error(ExitCode::BadInput, fmt::format("{} {} cannot be among the pictures of {}", output.option,
                                                   quoted(output.out), what));
   }
+  if (arguments.tolerance.file) requireApart(output, "--tolerance", *arguments.tolerance.file);
+  for (const std::filesystem::path& mask : arguments.tolerance.given.masks)
+    requireApart(output, "--mask", mask);
 }
 
 int run(const Arguments& arguments, const CLI::App& verb) {

@@ -10,7 +10,6 @@
 #include "src/app/commands.h"
 #include "src/scene/scene.h"
 
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -19,11 +18,6 @@
 #include <fmt/format.h>
 
 namespace offstage {
-namespace {
-
-constexpr double kRounding = 1e-9; ///< s: a moment that is a frame's time up to rounding is meant to be it
-
-} // namespace
 
 void addStill(CLI::App& app, Action& action) {
   struct Arguments {
@@ -59,11 +53,8 @@ void addStill(CLI::App& app, Action& action) {
       SceneSource source(scene, viewport);
       source.watch(scene, warnings);
       AtomicFile file(arguments->out);
-      double at = arguments->at.value();
-      const bool retimed = source.film() != nullptr && source.film()->map;
-      if (options.fps && !scene.clock.isFixed() && !retimed) // the frame on show in the resampled video
-        at = std::floor((at + kRounding) * *options.fps) / *options.fps;
-      const Still still = drawStill(source, at, arguments->strobe.value_or(1));
+      const Still still =
+          drawStill(source, arguments->at.value(), arguments->strobe.value_or(1), options.fps);
       const std::vector<std::uint8_t> png =
           encodePng(still.frame, still.alpha, printResolution(viewport.scale));
       file.write(png.data(), png.size());
