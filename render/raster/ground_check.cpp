@@ -1,15 +1,31 @@
 #include "render/raster/ground_check.h"
 
-#include <array>
-
 namespace offstage {
 namespace {
 
-/// render/raster/shader_sources.cpp's onGround() for a source of no colour.
-unsigned keptOf(unsigned ground, unsigned alpha) {
+/// What llvmpipe keeps of the ground when it blends.
+constexpr unsigned keptOf(unsigned ground, unsigned alpha) {
   const unsigned product = ground * (255U - alpha);
   return (product + (product >> 8U) + 128U) >> 8U;
 }
+
+constexpr float partOf(unsigned ground) {
+  return static_cast<float>(ground) * (257.0F / 65536.0F);
+}
+
+/// render/raster/shader_sources.cpp's onGround() for a source of no colour. No product lies nearer to a half
+/// than 3e-5, which a fused multiplication and addition would not make up for.
+constexpr bool shaderKeepsTheSame() {
+  constexpr float kWhole = 8388608.0F; // 2^23
+  for (unsigned ground = 0; ground < 256; ++ground) {
+    for (unsigned alpha = 0; alpha < 256; ++alpha) {
+      const float kept = partOf(ground) * static_cast<float>(255U - alpha);
+      if ((kept + kWhole) - kWhole != static_cast<float>(keptOf(ground, alpha))) return false;
+    }
+  }
+  return true;
+}
+static_assert(shaderKeepsTheSame());
 
 Instance pointInstance(int x, int y, int side, Rgba8 color) {
   Instance instance;
@@ -20,6 +36,10 @@ Instance pointInstance(int x, int y, int side, Rgba8 color) {
 }
 
 } // namespace
+
+std::array<float, 4> groundOf(Rgba8 opaque) {
+  return {partOf(opaque.r), partOf(opaque.g), partOf(opaque.b), 0.0F};
+}
 
 bool GroundCheck::possible(const Framebuffer& framebuffer, Rgba8 ground) {
   return ground.a == 255 && framebuffer.width() >= kTrial.right && framebuffer.height() >= kTrial.bottom;

@@ -3,9 +3,14 @@
 #include "render/raster/draw_queue.h"
 #include "render/raster/framebuffer.h"
 
+#include <array>
 #include <optional>
 
 namespace offstage {
+
+/// What DiscOnGround knows of its ground: r, g and b times 257/65536, then 0. Such a part times (255 − a),
+/// rounded, is what blending keeps of the ground under the alpha a.
+std::array<float, 4> groundOf(Rgba8 opaque);
 
 /// Finds out, by trying, whether the driver blends over an opaque colour exactly as the programs for known
 /// grounds compute it. Where it does not, they are not used, so that a partial redraw always equals a whole

@@ -52,8 +52,8 @@ struct Instance {
   /// the line's middle, p from the frame's upper-left corner. Elbow: {from, corner} from the origin, x and y
   /// exchanged where inner[3] is 1.
   std::array<float, 4> outer{};
-  /// The hole, in the same form; a box without one has low = high. DiscOnGround: r, g, b of the ground (0 …
-  /// 255). Elbow: {to, half width, 1 if x and y are exchanged}.
+  /// The hole, in the same form; a box without one has low = high. DiscOnGround: groundOf() in
+  /// render/raster/ground_check.h. Elbow: {to, half width, 1 if x and y are exchanged}.
   std::array<float, 4> inner{};
   /// pattern: first texel in the store, width, height, 1 if it repeats; mask: first texel, width, height, 0
   std::array<std::int32_t, 4> texels{};

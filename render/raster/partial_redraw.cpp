@@ -2,6 +2,7 @@
 
 #include "render/raster/cover.h"
 #include "render/raster/framebuffer.h"
+#include "render/raster/ground_check.h"
 
 #include <algorithm>
 
@@ -94,8 +95,7 @@ bool PartialRedraw::collect(const DisplayList& list, const TileSet& tiles, const
     ProgramKind program = layer.program;
     program.coverage = Coverage::DiscOnGround;
     Instance instance = layer.instance;
-    instance.inner = {static_cast<float>(background.r), static_cast<float>(background.g),
-                      static_cast<float>(background.b), 0.0F};
+    instance.inner = groundOf(background);
     draw(square.rect, frame, frame, program, instance);
     square.lowest = kDrawn;
   }

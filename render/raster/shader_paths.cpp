@@ -71,8 +71,8 @@ float behind(float depth, float slope, float scale) {
 
 float insideStrip(vec2 p) {
   vec2 n = abs(vOuter.xy);
-  float scale = 1.0 / max(n.x, n.y);
-  float slope = min(n.x, n.y) * scale;
+  float scale = 1.0 / larger(n.x, n.y);
+  float slope = smaller(n.x, n.y) * scale;
   float at = vOuter.x * p.x + vOuter.y * p.y + vOuter.z;
   return (behind(vOuter.w - at, slope, scale) - behind(-vOuter.w - at, slope, scale)) * owned();
 }
