@@ -86,8 +86,8 @@ bool Canvas::Impl::collectDamage(const Rgba8& background) {
   std::int64_t touched = 0;
   for (const LayerChange& change : changes) {
     touched += touchedPixels(shown, change.before) + touchedPixels(next, change.after);
+    if (2 * touched > pixels) return false; // finding the tiles would not pay
   }
-  if (2 * touched > pixels) return false; // finding the tiles would not pay
   tiles.clear();
   findDamage(shown, next, changes, tiles);
   const bool exact = groundIsExact(background);

@@ -57,6 +57,10 @@ const SceneKey& TableReader::spec(std::string_view key) const {
 
 const TomlValue* TableReader::find(std::string_view key) const {
   static_cast<void>(spec(key)); // a key that the list lacks would be reported as unknown and never be read
+  return entry(key);
+}
+
+const TomlValue* TableReader::entry(std::string_view key) const {
   const auto* table = value_.table();
   if (table == nullptr) return nullptr;
   for (const TomlEntry& entry : *table) {
@@ -70,8 +74,14 @@ std::string TableReader::described(std::string_view key) const {
   return fmt::format("'{}{}' in {}", prefix_, key, label_);
 }
 
+std::string_view TableReader::defaultOf(std::string_view key) const {
+  const std::string_view text = spec(key).defaultText;
+  if (text == kRequired && entry(key) == nullptr) require(key);
+  return text;
+}
+
 std::string TableReader::defaultString(std::string_view key) const {
-  std::string_view text = spec(key).defaultText;
+  std::string_view text = defaultOf(key);
   if (text.size() >= 2 && text.front() == '"') text = text.substr(1, text.size() - 2);
   return std::string(text);
 }
@@ -79,10 +89,6 @@ std::string TableReader::defaultString(std::string_view key) const {
 void TableReader::require(std::string_view key) const {
   const std::string table = label_.empty() ? "the scene" : label_;
   errors_.add(value_, fmt::format("{} needs '{}{}'", table, prefix_, key));
-}
-
-void TableReader::requireIfNeeded(std::string_view key) const {
-  if (spec(key).defaultText == kRequired && !has(key)) require(key);
 }
 
 void TableReader::reject(std::string_view key, std::string_view problem) const {
@@ -98,32 +104,28 @@ bool TableReader::rejectBoth(std::string_view key, std::string_view other) const
 
 double TableReader::number(std::string_view key, Range range) const {
   if (const auto given = givenNumber(key, range)) return *given;
-  requireIfNeeded(key);
   double number = 0.0;
-  parseDefaults(spec(key).defaultText, {&number, 1});
+  parseDefaults(defaultOf(key), {&number, 1});
   return number;
 }
 
 std::int64_t TableReader::integer(std::string_view key, std::int64_t low, std::int64_t high) const {
   if (const auto given = givenInteger(key, low, high)) return *given;
-  requireIfNeeded(key);
   double number = 0.0;
-  parseDefaults(spec(key).defaultText, {&number, 1});
+  parseDefaults(defaultOf(key), {&number, 1});
   return static_cast<std::int64_t>(number);
 }
 
 bool TableReader::boolean(std::string_view key) const {
-  const bool byDefault = spec(key).defaultText == "true";
-  const TomlValue* given = find(key);
-  if (given == nullptr) return byDefault;
-  if (const bool* truth = std::get_if<bool>(&given->data)) return *truth;
-  reportMismatch(*given, described(key), "true or false", errors_);
-  return byDefault;
+  if (const TomlValue* given = find(key)) {
+    if (const bool* truth = std::get_if<bool>(&given->data)) return *truth;
+    reportMismatch(*given, described(key), "true or false", errors_);
+  }
+  return defaultOf(key) == "true";
 }
 
 std::string TableReader::string(std::string_view key) const {
   if (const auto given = givenString(key)) return *given;
-  requireIfNeeded(key);
   return defaultString(key);
 }
 
@@ -136,9 +138,8 @@ Color TableReader::color(std::string_view key) const {
 
 std::array<double, 2> TableReader::pair(std::string_view key, Range range) const {
   if (const auto given = givenNumbers<2>(key, range)) return *given;
-  requireIfNeeded(key);
   std::array<double, 2> numbers{};
-  parseDefaults(spec(key).defaultText, numbers);
+  parseDefaults(defaultOf(key), numbers);
   return numbers;
 }
 

@@ -74,7 +74,6 @@ public:
   template <typename Value, std::size_t N>
   Value choice(std::string_view key, const Choice<Value> (&choices)[N]) const {
     if (const auto given = givenChoice(key, choices)) return *given;
-    requireIfNeeded(key);
     const std::string word = defaultString(key);
     for (const Choice<Value>& candidate : choices) {
       if (candidate.word == word) return candidate.value;
@@ -92,8 +91,10 @@ public:
 
 private:
   [[nodiscard]] const SceneKey& spec(std::string_view key) const;
-  [[nodiscard]] std::string defaultString(std::string_view key) const;
-  void requireIfNeeded(std::string_view key) const;
+  [[nodiscard]] const TomlValue* entry(std::string_view key) const; ///< null when absent; of a known key
+  // The key's default. That a required key is missing is reported.
+  [[nodiscard]] std::string_view defaultOf(std::string_view key) const;
+  [[nodiscard]] std::string defaultString(std::string_view key) const; ///< without quotation marks
   void reportUnknownKeys() const;
   [[nodiscard]] std::string unknownKeyHint(const std::string& key) const;
   bool readNumbers(std::string_view key, std::span<double> numbers, Range range) const;

@@ -97,7 +97,7 @@ std::optional<TomlValue> parseToml(std::string_view text, const std::string& fil
     return std::nullopt;
   }
   try {
-    return converted(toml::parse(text, std::string_view(file)));
+    return converted(toml::parse(text)); // without the file's name, which every value would hold
   } catch (const toml::parse_error& problem) {
     const toml::source_position begin = problem.source().begin;
     error = {{file, begin.line, begin.column}, "not valid TOML: " + printable(problem.description())};
