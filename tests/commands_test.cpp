@@ -231,6 +231,26 @@ TEST(Commands, CtrlCBeforeTheFirstChunkEndsWith130AndLeavesNothing) {
   EXPECT_THAT(dir.names(), IsEmpty());
 }
 
+TEST(Commands, RecordedFramesThatAreTooShortForAFileAreTold) {
+  const TempDir dir;
+  dir.write("r.dt", "400000\n400000\n400000\n400000\n400000\n100000000\n");
+  dir.write("s.toml", "[frame]\nsize = [64, 48]\n[clock]\nrecorded = \"r.dt\"\n"
+                      "[[body]]\ncenter = [20, 20]\nradius = 9\nvelocity = [30, 0]\n");
+  const auto told = [&](const std::string& out) {
+    const ProcessResult result = offstage({"render", dir / "s.toml", "-o", dir / out});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result.err;
+  };
+  // From 0, 0.4, 0.8, 1.2, 1.6, 2 to 102 ms: in whole ones 0, 0, 1, 1, 2, 2.
+  const std::string three = "offstage: 3 of 6 frames are shorter than the unit of time of ";
+  EXPECT_EQ(told("x.mkv"), three + "'x.mkv', and left out\n");
+  EXPECT_EQ(told("x.apng"), three + "'x.apng', and left out\n");
+  EXPECT_EQ(told("x.gif"),
+            "offstage: 5 of 6 frames are shorter than the unit of time of 'x.gif', and left out\n");
+  EXPECT_EQ(told("x.mp4"), "");
+  EXPECT_EQ(told("%d.png"), "");
+}
+
 TEST(Commands, AFailedRenderKeepsTheFileThatWasThere) {
   const TempDir dir;
   const std::filesystem::path out = dir / "x.mp4";

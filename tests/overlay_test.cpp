@@ -167,6 +167,8 @@ TEST(Overlay, ATrailOfABodyThatIsGoneStaysUntilItIsOld) {
   history.note(0.5, {}, {});
   EXPECT_EQ(history.tracks().size(), 1U);
   history.note(0.7, {}, {});
+  EXPECT_EQ(history.tracks().size(), 1U); // it is still seen at moments soon after 0.5 s
+  history.note(0.8, {}, {});
   EXPECT_TRUE(history.tracks().empty());
 }
 
@@ -223,6 +225,16 @@ TEST(Overlay, BetweenItsStepsOnlyATrailsHeadChanges) {
 }
 
 /// A picture shows the bodies of an accumulator between the last two steps, here 40 px apart.
+/// How far to the right pieces of paths reach; 0 without any.
+double reachOf(const Picture& picture) {
+  double reach = 0.0;
+  for (const Primitive& piece : picture.primitives) {
+    if (piece.kind == Primitive::Kind::Strip || piece.kind == Primitive::Kind::Elbow)
+      reach = std::max(reach, piece.high.x());
+  }
+  return reach;
+}
+
 TEST(Overlay, TrailOfAnAccumulatorEndsWhereItsBodyIsDrawn) {
   SceneSource source = sourceOf("[clock]\nstep = \"accumulator\"\ndt = 0.1\n[world]\ngravity = [0, 0]\n"
                                 "[[body]]\ncenter = [50, 60]\nradius = 2\nvelocity = [400, 0]\n"
@@ -234,13 +246,34 @@ TEST(Overlay, TrailOfAnAccumulatorEndsWhereItsBodyIsDrawn) {
     source.draw(picture);
     const Primitive* ball = firstOf(picture, Primitive::Kind::Disc);
     ASSERT_NE(ball, nullptr);
-    double end = 0.0;
-    for (const Primitive& piece : picture.primitives) {
-      if (piece.kind == Primitive::Kind::Strip || piece.kind == Primitive::Kind::Elbow)
-        end = std::max(end, piece.high.x());
-    }
-    EXPECT_NEAR(end, ball->center.x(), 1e-9) << "frame " << frame;
+    EXPECT_NEAR(reachOf(picture), ball->center.x(), 1e-9) << "frame " << frame;
   }
+}
+
+TEST(Overlay, BetweenTwoFramesShowsNothingOfTheLaterOne) {
+  const std::string world = "[clock]\nfps = 10\n[world]\ngravity = [0, 0]\n[[body]]\ncenter = [50, 60]\n"
+                            "radius = 8\nvelocity = [1000, 0]\n";
+  const auto pictureAt = [&](const std::string& overlay, std::int64_t frame, double fraction) {
+    SceneSource source = sourceOf(world + overlay);
+    source.show({.moment = {frame, fraction}, .time = 0.1 * (static_cast<double>(frame) + fraction)});
+    Picture picture;
+    source.draw(picture);
+    return picture;
+  };
+  // The trail ends under its body, at 50 + 1000 t.
+  for (const double fraction : {0.05, 0.5, 0.95}) {
+    EXPECT_NEAR(reachOf(pictureAt("[[trail]]\nfade = false\n", 1, fraction)), 150.0 + 100.0 * fraction, 1e-9)
+        << "fraction " << fraction;
+  }
+  // The ghosts of 0 and 0.1 s and the body; from 0.2 s on one more.
+  EXPECT_EQ(pictureAt("[[ghost]]\nevery = 0.1\n", 1, 0.5).primitives.size(), 3U);
+  EXPECT_EQ(pictureAt("[[ghost]]\nevery = 0.1\n", 2, 0.0).primitives.size(), 4U);
+  // What the body runs into at 0.2 s is marked from then on.
+  const std::string contact =
+      "group = \"ball\"\n[[body]]\ncenter = [260, 60]\nradius = 8\n"
+      "group = \"wall\"\n[[collide]]\nbetween = [\"wall\", \"ball\"]\n[[contact_mark]]\n";
+  EXPECT_EQ(pictureAt(contact, 1, 0.9).primitives.size(), 2U);
+  EXPECT_GT(pictureAt(contact, 2, 0.0).primitives.size(), 2U);
 }
 
 TEST(Overlay, LayersGoBelowAndAboveTheBodies) {

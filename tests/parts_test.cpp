@@ -101,6 +101,13 @@ TEST(Parts, TouchNothingThatIsNotTheirs) {
               AllOf(StartsWith("2: "), HasSubstr("thesis.tex")));
   EXPECT_THAT(dir.names("b.mp4.parts"), ElementsAre("thesis.tex"));
 
+  std::filesystem::create_directory(dir / "m.mp4.parts");
+  test::writeFile(dir / "m.mp4.parts" / "manifest", "my manifest");
+  test::writeFile(dir / "m.mp4.parts" / "000000.chunk", "my data");
+  EXPECT_THAT(errorOf([&] { const Parts parts(dir / "m.mp4", manifestOf("a"), Parts::Use::Whole, true); }),
+              AllOf(StartsWith("2: "), HasSubstr("'manifest'"), HasSubstr("move it away")));
+  EXPECT_THAT(dir.names("m.mp4.parts"), ElementsAre("000000.chunk", "manifest"));
+
   // Of a part's name, but nothing that a part can be; opening the pipe would wait for ever.
   std::filesystem::create_directories(dir / "c.mp4.parts" / "000000.chunk");
   std::filesystem::create_directory(dir / "d.mp4.parts");

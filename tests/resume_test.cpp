@@ -139,6 +139,20 @@ TEST(Resume, WorkersThatAreKilledAreStartedAgain) {
   EXPECT_THAT(dir.names(), ElementsAre("x.mp4"));
 }
 
+TEST(Resume, KilledWorkersLeaveNothingAmongThePictures) {
+  const TempDir dir;
+  std::filesystem::create_directory(dir / "f");
+  Running run(renderTo(dir / "f/%04d.png", {"--jobs", "2", "--size", "1280x960"}));
+  ASSERT_TRUE(run.waitUntil([&] { return dir.names("f").size() > 40; }));
+  int killed = 0;
+  for (const int simulator : childrenOf(run.id()))
+    for (const int worker : childrenOf(simulator)) killed += kill(worker, SIGKILL) == 0 ? 1 : 0;
+  EXPECT_GT(killed, 0);
+  EXPECT_EQ(run.finish(), 0) << run.errors();
+  EXPECT_EQ(dir.names("f").size(), 600U);
+  for (const std::string& name : dir.names("f")) EXPECT_FALSE(name.starts_with('.')) << name;
+}
+
 TEST(Resume, TheSimulatingProcessIsStartedAgainToo) {
   const TempDir dir;
   const std::string expected = bytesOf(renderTo(dir / "x.mp4"), dir / "x.mp4");
@@ -222,6 +236,34 @@ TEST(Resume, CtrlCKeepsFinishedChunksAndTellsOfThem) {
   EXPECT_THAT(run.errors(), AllOf(HasSubstr("interrupted"), HasSubstr("of 4 chunks are kept in")));
   EXPECT_THAT(dir.names(), ElementsAre("x.mp4.parts"));
   for (const std::string& name : dir.names("x.mp4.parts")) EXPECT_FALSE(name.starts_with('.')) << name;
+}
+
+TEST(Resume, AnIgnoredCtrlCStaysIgnored) {
+  const TempDir dir;
+  std::vector<std::string> command{"sh", "-c", "trap '' INT; exec \"$@\"", "sh"};
+  for (const std::string& argument : renderTo(dir / "x.mp4", {"--jobs", "1"})) command.push_back(argument);
+  Running run(command);
+  ASSERT_TRUE(run.waitUntil([&] { return std::filesystem::exists(dir / "x.mp4.parts/000000.chunk"); }));
+  run.signal(SIGINT);
+  EXPECT_EQ(run.finish(), 0) << run.errors();
+  EXPECT_THAT(dir.names(), ElementsAre("x.mp4"));
+}
+
+/// A start that fails under a shell's limits: with which status, and what it leaves.
+TEST(Resume, AStartThatFailsLeavesNothing) {
+  const struct {
+    std::string limit;
+    std::string says;
+  } cases[] = {{"ulimit -n 4", "Too many open files"}, {"ulimit -v 200000", "there is no memory to load"}};
+  for (const auto& tested : cases) {
+    const TempDir dir;
+    std::vector<std::string> command{"sh", "-c", tested.limit + "; exec \"$@\"", "sh"};
+    for (const std::string& argument : renderTo(dir / "x.mp4", {"--jobs", "1"})) command.push_back(argument);
+    const ProcessResult result = runProcess(command);
+    EXPECT_EQ(result.status, 75) << tested.limit;
+    EXPECT_THAT(result.err, HasSubstr(tested.says));
+    EXPECT_THAT(dir.names(), IsEmpty()) << tested.limit;
+  }
 }
 
 TEST(Resume, TwoRunsOnOneOutputDoNotDisturbEachOther) {

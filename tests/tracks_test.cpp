@@ -111,6 +111,18 @@ TEST(Tracks, APartOfTheVideoHasItsPartOfThem) {
   EXPECT_EQ(tracks.chapters[1].start, 800 * kMs);
 }
 
+TEST(Tracks, NoCaptionOutlastsThePictures) {
+  const TempDir dir;
+  const std::string scene = dir.write("scene.toml", kCaptionScene).string();
+  for (const std::string& ending : kContainers) {
+    SCOPED_TRACE(ending);
+    const std::string out = (dir / ("x" + ending)).string();
+    // One frame, 16.7 ms.
+    ASSERT_EQ(offstage({"render", scene, "-o", out, "--from", "1", "--to", "1.001"}).status, 0);
+    for (const Cue& cue : decodeTracks(out).captions) EXPECT_LE(cue.end, 16 * kMs);
+  }
+}
+
 TEST(Tracks, BytesDoNotDependOnTheWorkersAndSegmentsHaveThem) {
   const TempDir dir;
   std::string text = kCaptionScene;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace offstage {
 namespace {
@@ -63,6 +64,7 @@ void OverlayHistory::setOverlays(const Overlays& overlays) {
 }
 
 void OverlayHistory::note(double time, std::span<const Body> bodies, std::span<const Event> events) {
+  oldestShown_ = std::exchange(noted_, time);
   if (!trails_.empty()) noteTracks(time, bodies);
   if (!ghosts_.empty()) noteGhosts(time, bodies);
   if (contactLength_ > 0.0) noteContacts(time, bodies, events);
@@ -84,9 +86,9 @@ void OverlayHistory::noteTracks(double time, std::span<const Body> bodies) {
   for (auto track = tracks_.begin(); track != tracks_.end();) {
     std::deque<Place>& places = track->second.places;
     // One place older than the trail is kept: the trail begins on the way from it.
-    while (places.size() > kMostPlaces || (places.size() > 1 && places[1].time < time - trailLength_))
+    while (places.size() > kMostPlaces || (places.size() > 1 && places[1].time < oldestShown_ - trailLength_))
       places.pop_front();
-    const bool over = track->second.head.time < time - trailLength_;
+    const bool over = track->second.head.time < oldestShown_ - trailLength_;
     track = over ? tracks_.erase(track) : std::next(track);
   }
 }
@@ -102,7 +104,7 @@ void OverlayHistory::noteGhosts(double time, std::span<const Body> bodies) {
       }
     }
     while (!row.kept.empty() &&
-           (row.kept.size() > kMostGhosts || row.kept.front().time < time - overlay.length))
+           (row.kept.size() > kMostGhosts || row.kept.front().time < oldestShown_ - overlay.length))
       row.kept.pop_front();
   }
 }
@@ -127,7 +129,7 @@ void OverlayHistory::noteContacts(double time, std::span<const Body> bodies, std
   touching_ = std::move(now);
   before_.assign(bodies.begin(), bodies.end());
   while (!contacts_.empty() &&
-         (contacts_.size() > kMostContacts || contacts_.front().time < time - contactLength_))
+         (contacts_.size() > kMostContacts || contacts_.front().time < oldestShown_ - contactLength_))
     contacts_.pop_front();
 }
 

@@ -15,7 +15,8 @@
 namespace offstage {
 
 /// What overlays show of the past. It is told of every frame in order, wherever drawing begins, so that the
-/// same frame shows the same past in every segment, chunk and still.
+/// same frame shows the same past in every segment, chunk and still. In slow motion a picture may show a
+/// moment between the last two frames: what belongs to the last one is known then, but not yet to be seen.
 class OverlayHistory {
 public:
   struct Place {
@@ -69,6 +70,8 @@ private:
   void noteGhosts(double time, std::span<const Body> bodies);
   void noteContacts(double time, std::span<const Body> bodies, std::span<const Event> events);
 
+  double noted_ = 0.0;       ///< s: the last frame's time
+  double oldestShown_ = 0.0; ///< s: the time of the frame before, from which on moments may be shown
   std::vector<TrailOverlay> trails_;
   std::vector<GhostOverlay> ghostOverlays_;
   double trailLength_ = 0.0;   ///< s: the longest trail's

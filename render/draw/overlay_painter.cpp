@@ -21,6 +21,7 @@ constexpr double kLeastArrow = 1.0;   ///< px: a shorter one is not drawn
 constexpr double kTick = 5.0;         ///< px to either side of a ruler
 constexpr double kLongTick = 9.0;     ///< px: every fifth, and the ends
 constexpr double kMostTicks = 2000.0;
+constexpr double kRounding = 1e-9; ///< s: what is due at a moment up to rounding is due
 
 Rgba8 bytes(const Color& color, double opacity = 1.0) {
   return {color.red, color.green, color.blue, color.alphaByte(opacity)};
@@ -87,7 +88,7 @@ public:
   explicit TrailSteps(double length)
       : count_(std::clamp(std::floor(length / kStep), kLeast, kMost)), length_(length / count_) {}
 
-  [[nodiscard]] double of(double time) const { return std::floor(time / length_ + kRounding); }
+  [[nodiscard]] double of(double time) const { return std::floor(time / length_ + kOnCut); }
   /// s: where a fading trail begins.
   [[nodiscard]] double beginOf(double now) const { return (of(now) - count_ + 1.0) * length_; }
   /// What is left of the colour in a step: 0 … 1.
@@ -99,7 +100,7 @@ private:
   static constexpr double kStep = 0.125; ///< s
   static constexpr double kLeast = 16.0;
   static constexpr double kMost = 64.0;
-  static constexpr double kRounding = 1e-9; ///< a time on a cut up to rounding is on it
+  static constexpr double kOnCut = 1e-9; ///< a time on a cut up to rounding is on it
   double count_;
   double length_; ///< s: of a step
 };
@@ -243,19 +244,26 @@ void OverlayPainter::trail(Picture& picture, const TrailOverlay& trail, const No
         add({begin, from.at + part * (to.at - from.at)});
       }
     }
-    for (auto place = first; place != places.end(); ++place) add(*place);
-    if (track.head.time > begin) add(track.head);
+    for (auto place = first; place != places.end() && place->time <= now.time; ++place) add(*place);
+    OverlayHistory::Place last = track.head;
+    if (last.time > now.time) { // between two frames, of which the history knows both
+      const auto body = std::ranges::find(now.bodies, id, &Body::id);
+      if (body == now.bodies.end()) continue;
+      last = {now.time, middleOf(*body)};
+    }
+    if (last.time > begin) add(last);
     if (path.empty()) continue;
     endStep();
     // Under a living body, and where a trail has faded, a round end is not seen.
     Pen(picture, trail.width * viewport.scale, color)
-        .path(points, colors, {.roundFirst = !trail.fade, .roundLast = track.head.time < now.time});
+        .path(points, colors, {.roundFirst = !trail.fade, .roundLast = last.time < now.time});
   }
 }
 
 void OverlayPainter::ghosts(Picture& picture, std::size_t index, const Now& now) const {
   const GhostOverlay& overlay = overlays_.ghosts[index];
   for (const OverlayHistory::Ghost& ghost : now.history.ghosts(index)) {
+    if (ghost.time > now.time + kRounding || ghost.time < now.time - overlay.length - kRounding) continue;
     const double left = overlay.fade ? 1.0 - (now.time - ghost.time) / overlay.length : 1.0;
     now.painter.body(picture, ghost.body, ghost.body.look, overlay.opacity * std::clamp(left, 0.0, 1.0));
   }
@@ -296,7 +304,9 @@ void OverlayPainter::contacts(Picture& picture, const ContactMarkOverlay& mark, 
   const double width = mark.width * viewport.scale;
   for (const OverlayHistory::Contact& contact : now.history.contacts()) {
     const double left = 1.0 - (now.time - contact.time) / mark.duration;
-    if (!(left > 0.0) || !(mark.of.holds(contact.first) || mark.of.holds(contact.second))) continue;
+    if (contact.time > now.time + kRounding || !(left > 0.0) ||
+        !(mark.of.holds(contact.first) || mark.of.holds(contact.second)))
+      continue;
     const double opacity = std::min(2.0 * left, 1.0);
     const Vec2 at = toOutput(viewport, contact.at);
     const Vec2 along = contact.normal * (0.5 * mark.length * viewport.scale);

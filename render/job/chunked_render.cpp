@@ -54,6 +54,7 @@ public:
       sidecar_.emplace(options.out);
     said_ = output_->notice();
     printNotice(said_);
+    sayWhatIsLeftOut();
   }
 
   RenderResult render() {
@@ -80,7 +81,8 @@ public:
     const auto watch = [&](std::int64_t /*joined*/) { progress.update(state_.frames(), state_.bytes()); };
     const std::int64_t bytes = options_.segment ? state_.bytes() : join(parts, watch);
     if (!options_.hashFile.empty()) writeHashes(parts);
-    ending_.reset(); // they hold the lock, too
+    ending_.reset();                             // they hold the lock, too
+    if (state_.signal() != 0) removeLeftovers(); // of workers that something ended
     if (!options_.segment) parts.removeAll();
     progress.finish(bytes);
     return {frames, seconds(), elapsed(), bytes};
@@ -125,6 +127,18 @@ private:
     removeAbandoned(pattern.folder(), [&](std::string_view name, bool whole) {
       return whole ? pattern.numberOf(name).has_value() : pattern.mayBeginWith(name);
     });
+  }
+
+  /// A recorded clock's frames may be shorter than the output can tell apart.
+  void sayWhatIsLeftOut() const {
+    if (schedule_.fps() > 0.0) return; // known to fit
+    std::int64_t leftOut = 0;
+    for (std::int64_t frame = plan_.begin(firstChunk_); frame < plan_.begin(endChunk_); ++frame)
+      leftOut += output_->holds(schedule_.timing(frame)) ? 0 : 1;
+    if (leftOut == 0) return;
+    printNotice(fmt::format("{} of {} frames {} shorter than the unit of time of {}, and left out", leftOut,
+                            plan_.begin(endChunk_) - plan_.begin(firstChunk_), leftOut == 1 ? "is" : "are",
+                            quoted(options_.out.filename())));
   }
 
   using SteadyClock = std::chrono::steady_clock;

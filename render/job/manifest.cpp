@@ -11,6 +11,7 @@ namespace offstage {
 namespace {
 
 constexpr std::string_view kFirstLine = "offstage parts 1";
+constexpr std::string_view kFirstWords = "offstage parts "; ///< of every version
 constexpr std::string_view kEquals = " = ";
 
 } // namespace
@@ -68,6 +69,16 @@ std::optional<Manifest> Manifest::read(const std::filesystem::path& file) {
   std::ostringstream text;
   text << stream.rdbuf();
   return parse(text.str());
+}
+
+bool Manifest::isForeign(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return false;
+  std::ifstream stream(file, std::ios::binary);
+  std::string beginning(kFirstWords.size(), '\0');
+  stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  beginning.resize(static_cast<std::size_t>(stream.gcount()));
+  return !kFirstWords.starts_with(beginning);
 }
 
 } // namespace offstage

@@ -24,6 +24,10 @@ public:
   /// Nothing when there is no file or it is no manifest.
   static std::optional<Manifest> read(const std::filesystem::path& file);
 
+  /// Whether something stands there that is neither a manifest, whole or damaged behind its first line, nor
+  /// an empty file.
+  static bool isForeign(const std::filesystem::path& file);
+
   friend bool operator==(const Manifest&, const Manifest&) = default;
 
 private:

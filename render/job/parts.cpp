@@ -93,7 +93,7 @@ Parts::Parts(const fs::path& out, const Manifest& manifest, Use use, bool resume
   try {
     takeOver(manifest, resume);
   } catch (...) {
-    close(lock_);
+    letGo();
     throw;
   }
 }
@@ -101,6 +101,11 @@ Parts::Parts(const fs::path& out, const Manifest& manifest, Use use, bool resume
 Parts::~Parts() {
   if (lock_ < 0 || getpid() != owner_) return;
   if (use_ == Use::Whole) removeTemporaries();
+  letGo();
+}
+
+/// A folder without a chunk goes, too.
+void Parts::letGo() {
   const std::vector<std::string> names = namesIn(folder_);
   const bool empty =
       std::ranges::none_of(names, [](const std::string& name) { return isNumbered(name, kChunkEnding); });
@@ -117,7 +122,8 @@ void Parts::requireOwn() const {
                             quoted(folder_)));
   }
   for (const std::string& name : namesIn(folder_)) {
-    if (isOwn(name) && isPlain(folder_ / name)) continue;
+    const bool foreign = name == kManifest && Manifest::isForeign(folder_ / name);
+    if (isOwn(name) && !foreign && isPlain(folder_ / name)) continue;
     throw Error(ExitCode::BadInput,
                 fmt::format("the unfinished parts of the output go to the folder {}, but it holds "
                             "{}, which is none of them: move it away",

@@ -37,6 +37,7 @@ public:
 
   void drop(std::int64_t index);  ///< removes a chunk that is not whole
   void removeTemporaries() const; ///< of workers that were killed; only with Use::Whole
+  void letGo();                   ///< of the lock
   void removeAll();               ///< the folder and all that is in it
 
 private:

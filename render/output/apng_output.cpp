@@ -98,11 +98,14 @@ std::string ApngOutput::description() const {
                      format_.alpha ? ", transparent" : "");
 }
 
+bool ApngOutput::holds(const FrameTiming& timing) const {
+  return byIndex_ || millisecondOf(timing.start) < millisecondOf(timing.end);
+}
+
 std::unique_ptr<ChunkWriter> ApngOutput::begin(const std::filesystem::path& file,
                                                std::int64_t firstFrame) const {
-  return makeAnimationChunk(file, format_, firstFrame, [byIndex = byIndex_](const FrameTiming& timing) {
-    return byIndex || millisecondOf(timing.start) < millisecondOf(timing.end);
-  });
+  return makeAnimationChunk(file, format_, firstFrame,
+                            [this](const FrameTiming& timing) { return holds(timing); });
 }
 
 bool ApngOutput::isWhole(const std::filesystem::path& file) const {

@@ -18,6 +18,7 @@ public:
   ApngOutput(const std::filesystem::path& path, const SinkFormat& format);
 
   [[nodiscard]] std::string description() const override;
+  [[nodiscard]] bool holds(const FrameTiming& timing) const override;
   [[nodiscard]] std::unique_ptr<ChunkWriter> begin(const std::filesystem::path& file,
                                                    std::int64_t firstFrame) const override;
   [[nodiscard]] bool isWhole(const std::filesystem::path& file) const override;

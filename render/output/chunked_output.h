@@ -45,6 +45,9 @@ public:
   /// Things that the user should know, such as an odd size padded to even; one sentence a line, empty when
   /// none. Whole after join().
   [[nodiscard]] virtual std::string notice() const { return {}; }
+  /// Whether the output has this frame: one that begins and ends in the same of its units of time is left
+  /// out.
+  [[nodiscard]] virtual bool holds(const FrameTiming& /*timing*/) const { return true; }
   /// Starts the chunk whose first frame is `firstFrame`. May be called in several processes at once.
   [[nodiscard]] virtual std::unique_ptr<ChunkWriter> begin(const std::filesystem::path& file,
                                                            std::int64_t firstFrame) const = 0;

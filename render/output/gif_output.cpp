@@ -157,13 +157,15 @@ std::string GifOutput::notice() const {
                      format_.fps / static_cast<double>(every_), format_.fps);
 }
 
+bool GifOutput::holds(const FrameTiming& timing) const {
+  if (format_.fps > 0.0) return timing.index % every_ == 0;
+  return gridTick(timing.start) < gridTick(timing.end);
+}
+
 std::unique_ptr<ChunkWriter> GifOutput::begin(const std::filesystem::path& file,
                                               std::int64_t firstFrame) const {
   return makeAnimationChunk(file, format_, firstFrame,
-                            [fixed = format_.fps > 0.0, every = every_](const FrameTiming& timing) {
-                              if (fixed) return timing.index % every == 0;
-                              return gridTick(timing.start) < gridTick(timing.end);
-                            });
+                            [this](const FrameTiming& timing) { return holds(timing); });
 }
 
 bool GifOutput::isWhole(const std::filesystem::path& file) const {

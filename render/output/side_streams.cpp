@@ -89,7 +89,9 @@ void SideStreams::addCaptions(bool movText, const VideoTracks& tracks, int width
   }
   for (const Cue& cue : movText ? withoutOverlaps(tracks.captions, tracks.end) : tracks.captions) {
     const std::int64_t from = av_rescale_q(std::min(cue.start, tracks.end), kNanosecond, kMillisecond);
-    const std::int64_t to = av_rescale_q(std::min(cue.end, tracks.end), kNanosecond, kMillisecond);
+    // None outlasts the pictures: a player takes the longest stream for the film's length.
+    const std::int64_t to = std::min(av_rescale_q(cue.end, kNanosecond, kMillisecond),
+                                     av_rescale_q_rnd(tracks.end, kNanosecond, kMillisecond, AV_ROUND_DOWN));
     if (from < to)
       stream.packets.push_back(packetOf(movText ? movTextOf(cue.text) : webVttText(cue.text), from, to));
   }

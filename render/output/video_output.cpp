@@ -81,6 +81,12 @@ struct Span {
   std::int64_t end = 0;   ///< ticks
 };
 
+/// Ticks of a constant rate are its frames.
+Span spanOf(const FrameTiming& timing, double fps, AVRational timeBase) {
+  if (fps > 0.0) return {timing.index, timing.index + 1};
+  return {av_rescale_q(timing.start, kNanosecond, timeBase), av_rescale_q(timing.end, kNanosecond, timeBase)};
+}
+
 class VideoChunkWriter : public ChunkWriter {
 public:
   VideoChunkWriter(const std::filesystem::path& file, const SinkFormat& format,
@@ -94,7 +100,7 @@ public:
   void write(const Frame& frame, const FrameTiming& timing) override {
     requireFrameSize(frame, format_.width, format_.height);
     order_.require(timing);
-    const Span span = spanOf(timing);
+    const Span span = spanOf(timing, format_.fps, settings_.timeBase);
     if (span.start == span.end) return;
     if (span.end - span.start > kMostTicks) {
       throw Error(ExitCode::BadInput,
@@ -114,12 +120,6 @@ public:
   [[nodiscard]] std::int64_t bytesWritten() const override { return file_.bytesWritten(); }
 
 private:
-  [[nodiscard]] Span spanOf(const FrameTiming& timing) const {
-    if (format_.fps > 0.0) return {timing.index, timing.index + 1};
-    return {av_rescale_q(timing.start, kNanosecond, settings_.timeBase),
-            av_rescale_q(timing.end, kNanosecond, settings_.timeBase)};
-  }
-
   void keep(const AVPacket& packet) {
     packPacket(packet, record_);
     file_.add(record_);
@@ -164,6 +164,11 @@ std::string VideoOutput::notice() const {
                         format_.width, format_.height, traitsOf(settings_.codec).title);
   }
   return text;
+}
+
+bool VideoOutput::holds(const FrameTiming& timing) const {
+  const Span span = spanOf(timing, format_.fps, settings_.timeBase);
+  return span.start < span.end;
 }
 
 std::unique_ptr<ChunkWriter> VideoOutput::begin(const std::filesystem::path& file,

@@ -24,6 +24,7 @@ public:
 
   [[nodiscard]] std::string description() const override;
   [[nodiscard]] std::string notice() const override;
+  [[nodiscard]] bool holds(const FrameTiming& timing) const override;
   [[nodiscard]] std::unique_ptr<ChunkWriter> begin(const std::filesystem::path& file,
                                                    std::int64_t firstFrame) const override;
   [[nodiscard]] bool isWhole(const std::filesystem::path& file) const override;

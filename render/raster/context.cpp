@@ -75,15 +75,23 @@ std::unique_ptr<GlContext> makeGlContext() {
   }
   setMesaDefaults();
   std::string reasons;
+  bool shortOfMemory = false;
   const auto attempt = [&](std::string_view name, auto make) -> std::unique_ptr<GlContext> {
     if (wanted != "auto" && wanted != name) return nullptr;
     std::string reason;
     std::unique_ptr<GlContext> context = make(reason);
     if (context == nullptr) reasons += fmt::format("\n  {}: {}", name, reason);
+    shortOfMemory = shortOfMemory || (context == nullptr && DynamicLibrary::lackedMemory(reason));
     return context;
   };
   if (auto context = attempt("osmesa", makeOsMesaContext)) return context;
   if (auto context = attempt("egl", makeEglContext)) return context;
+  if (shortOfMemory) {
+    throw Error(
+        ExitCode::Transient,
+        fmt::format("there is no memory to load OpenGL: raise the limit (ulimit -v), or end something{}",
+                    reasons));
+  }
   throw Error(ExitCode::Environment, fmt::format("no OpenGL to draw with: {}{}", kInstallHint, reasons));
 }
 

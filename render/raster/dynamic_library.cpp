@@ -14,6 +14,12 @@ std::optional<DynamicLibrary> DynamicLibrary::open(const char* name, std::string
   return DynamicLibrary(handle);
 }
 
+bool DynamicLibrary::lackedMemory(std::string_view reason) {
+  // glibc names the error behind the second, but leaves it out where memory is short.
+  return reason.find("annot allocate memory") != std::string_view::npos ||
+         reason.ends_with("failed to map segment from shared object");
+}
+
 void* DynamicLibrary::symbol(const char* name) const {
   return dlsym(handle_, name);
 }

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace offstage {
 
@@ -11,6 +12,8 @@ class DynamicLibrary {
 public:
   /// Nothing when the library cannot be loaded; `reason` then holds the loader's message.
   static std::optional<DynamicLibrary> open(const char* name, std::string& reason);
+  /// Whether the loader's message says that there was no memory for a library that is there.
+  static bool lackedMemory(std::string_view reason);
 
   /// A function by name, as its type; null when the library lacks it.
   template <typename Function>

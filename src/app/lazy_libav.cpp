@@ -48,6 +48,11 @@ std::vector<DynamicLibrary> openAll() {
   for (const Library& library : kLibraries) {
     std::string reason;
     const auto opened = DynamicLibrary::open(library.file, reason);
+    if (!opened && DynamicLibrary::lackedMemory(reason))
+      throw offstage::Error(
+          offstage::ExitCode::Transient,
+          fmt::format("there is no memory to load {} ({}): raise the limit (ulimit -v), or end something",
+                      library.file, reason));
     if (!opened)
       throw offstage::Error(offstage::ExitCode::Environment,
                             fmt::format("{} cannot be loaded ({}): install the Debian package {}",

@@ -33,6 +33,8 @@ struct Pipe {
 
 [[noreturn]] void runChild(const std::vector<std::string>& arguments, const ProcessOptions& options, int out,
                            int err) {
+  // Who runs the tests may have them ignored (nohup, a script's background), and what is ignored stays so.
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, SIG_DFL);
   dup2(out, STDOUT_FILENO);
   dup2(err, STDERR_FILENO);
   const int nothing = open("/dev/null", O_RDONLY);

@@ -21,6 +21,8 @@ Running::Running(const std::vector<std::string>& arguments) {
   child_ = fork();
   if (child_ < 0) throw std::runtime_error("fork");
   if (child_ == 0) {
+    // As in process.cpp: what runs the tests may ignore them.
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, SIG_DFL);
     const int nothing = open("/dev/null", O_RDWR);
     dup2(nothing, STDIN_FILENO);
     dup2(nothing, STDOUT_FILENO);
