@@ -31,6 +31,7 @@ struct SceneBuilder {
   View view;
   double videoSeconds =
       0.0; ///< s: how long the video is, as far as the scene itself can tell; after parseTimeline
+  bool lengthIsGiven = false; ///< by a command line, in place of the scene's own clock and duration
   Integrator integrator = Integrator::SemiImplicitEuler; ///< the world's
   std::optional<InputLog> input;                         ///< [input]
   bool substepsGiven = false;                            ///< by [clock]
