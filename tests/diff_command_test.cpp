@@ -1,4 +1,5 @@
 #include "render/output/png.h"
+#include "src/scene/utf8.h"
 #include "tests/support/png_build.h"
 #include "tests/support/process.h"
 #include "tests/support/still_json.h"
@@ -163,6 +164,13 @@ TEST_F(DiffCommand, ABrokenFileNeverGetsAVerdict) {
   }
   EXPECT_THAT(offstage({"diff", a, dir_.write("c.png", good + "tail").string()}).out,
               AllOf(StartsWith("same"), HasSubstr("c.png' has 4 bytes after IEND, which are ignored")));
+}
+
+TEST_F(DiffCommand, ASharesPercentHasTheDigitsThatWereGiven) {
+  const std::string a = put("a.png", frame_);
+  EXPECT_THAT(offstage({"diff", a, a, "--max-ratio", "0.07"}).out,
+              HasSubstr("at most 7 % of the pixels unequal"));
+  EXPECT_THAT(offstage({"diff", a, a, "--max-ratio", "0.000123"}).out, HasSubstr("at most 0.0123 % of"));
 }
 
 TEST_F(DiffCommand, BadUsageIsStatus2AndWritesNothing) {
