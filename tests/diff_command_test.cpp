@@ -166,6 +166,19 @@ TEST_F(DiffCommand, ABrokenFileNeverGetsAVerdict) {
               AllOf(StartsWith("same"), HasSubstr("c.png' has 4 bytes after IEND, which are ignored")));
 }
 
+TEST_F(DiffCommand, NamesThatAreNotUtf8AreRepairedInJsonAndJunit) {
+  folder("f1", 0, 0);
+  folder("f2", 0, 0);
+  put("f1/q\x01\xff.png", frame_);
+  put("f2/q\x01\xff.png", changed(frame_, 20, 30));
+  const ProcessResult result = offstage({"diff", path("f1"), path("f2"), "--json", "--junit", path("x.xml")});
+  EXPECT_EQ(result.status, 1) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("q\\u0001\uFFFD"));
+  EXPECT_THAT(readFile(path("x.xml")), HasSubstr("q\uFFFD\uFFFD"));
+  EXPECT_NO_THROW(static_cast<void>(decodeUtf8(result.out)));
+  EXPECT_NO_THROW(static_cast<void>(decodeUtf8(readFile(path("x.xml")))));
+}
+
 TEST_F(DiffCommand, ASharesPercentHasTheDigitsThatWereGiven) {
   const std::string a = put("a.png", frame_);
   EXPECT_THAT(offstage({"diff", a, a, "--max-ratio", "0.07"}).out,

@@ -4,6 +4,7 @@
 #include "render/output/atomic_file.h"
 #include "render/output/file_error.h"
 #include "render/output/json_text.h"
+#include "src/scene/utf8.h"
 #include "src/sim/error.h"
 
 #include <array>
@@ -85,7 +86,7 @@ std::string dataJson(const Report& report) {
 
 std::string htmlText(std::string_view text) {
   std::string html;
-  for (const char c : text) {
+  for (const char c : repairedUtf8(text)) {
     if (c == '&')
       html += "&amp;";
     else if (c == '<')

@@ -1,5 +1,6 @@
 #include "render/compare/report.h"
 #include "render/output/atomic_file.h"
+#include "src/scene/utf8.h"
 
 #include <algorithm>
 
@@ -11,7 +12,7 @@ namespace {
 /// Text for XML 1.0. Control characters that XML cannot hold become U+FFFD.
 std::string xmlText(std::string_view text) {
   std::string xml;
-  for (const char c : text) {
+  for (const char c : repairedUtf8(text)) {
     switch (c) {
     case '&':
       xml += "&amp;";
