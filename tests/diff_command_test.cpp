@@ -166,6 +166,23 @@ TEST_F(DiffCommand, ABrokenFileNeverGetsAVerdict) {
               AllOf(StartsWith("same"), HasSubstr("c.png' has 4 bytes after IEND, which are ignored")));
 }
 
+TEST_F(DiffCommand, WithoutAVerdictTheJunitFileHoldsTheError) {
+  const std::string a = put("a.png", frame_);
+  const std::string b = put("b.png", frame_);
+  const std::string junit = path("x.xml");
+  ASSERT_EQ(offstage({"diff", a, b, "--junit", junit}).status, 0);
+  dir_.write("b.png", pngText(frame_).substr(0, 200));
+  EXPECT_EQ(offstage({"diff", a, b, "--junit", junit}).status, 2);
+  EXPECT_THAT(readFile(junit), AllOf(HasSubstr("tests=\"1\" failures=\"0\" errors=\"1\""),
+                                     HasSubstr("<error message="), HasSubstr("is truncated")));
+  ASSERT_EQ(offstage({"diff", a, a, "--junit", junit}).status, 0);
+  EXPECT_THAT(readFile(junit), HasSubstr("errors=\"0\""));
+  // What is no such report stays, and what is compared is not even looked at.
+  const std::string notes = dir_.write("notes.xml", "<notes/>").string();
+  EXPECT_EQ(offstage({"diff", a, b, "--junit", notes}).status, 2);
+  EXPECT_EQ(readFile(notes), "<notes/>");
+}
+
 TEST_F(DiffCommand, NamesThatAreNotUtf8AreRepairedInJsonAndJunit) {
   folder("f1", 0, 0);
   folder("f2", 0, 0);

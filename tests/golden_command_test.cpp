@@ -214,6 +214,26 @@ TEST(GoldenCommand, ReportsAsJsonAndJunit) {
               AllOf(HasSubstr("offstage.golden"), HasSubstr("fall@0.5s"), HasSubstr("physics changed")));
 }
 
+TEST(GoldenCommand, WithoutAVerdictTheJunitFileHoldsTheError) {
+  const GoldenFolder folder;
+  folder.writeScene("fall", "red", 40);
+  ASSERT_EQ(folder.golden({"record", "."}).status, 0);
+  ASSERT_EQ(folder.golden({"verify", ".", "--junit", "j.xml"}).status, 0);
+  EXPECT_THAT(readFile(folder.dir() / "j.xml"), HasSubstr("errors=\"0\""));
+  folder.dir().write("fall@0s.png", "no picture");
+  const ProcessResult verified = folder.golden({"verify", ".", "--junit", "j.xml"});
+  EXPECT_EQ(verified.status, 2);
+  EXPECT_THAT(verified.err, HasSubstr("cannot be read"));
+  EXPECT_THAT(readFile(folder.dir() / "j.xml"),
+              AllOf(HasSubstr("tests=\"1\" failures=\"0\" errors=\"1\""),
+                    HasSubstr("name=\"offstage golden verify .\""), HasSubstr("<error message="),
+                    HasSubstr("cannot be read")));
+  // What is no such report stays.
+  const std::string scene = readFile(folder.dir() / "fall.toml");
+  EXPECT_EQ(folder.golden({"verify", ".", "--junit", "fall.toml"}).status, 2);
+  EXPECT_EQ(readFile(folder.dir() / "fall.toml"), scene);
+}
+
 TEST(GoldenCommand, ScenesMayStandInAnotherFolder) {
   const GoldenFolder folder;
   folder.writeScene("fall", "red", 40);

@@ -85,6 +85,10 @@ void writeJson(std::ostream& out, const Report& report);
 /// not at all; throws as AtomicFile.
 void writeJunit(const std::filesystem::path& file, const Report& report);
 /// A folder that opens from disk with no network: index.html holds data and pictures, beside it one style
+/// The same for a run that came to no verdict: one testcase, `title`, with an error that says why. So that no
+/// earlier run's file stays and is taken for this one's. A file that is no such report is left alone.
+void writeJunitError(const std::filesystem::path& file, const std::string& suite, const std::string& title,
+                     const std::string& message);
 /// sheet and one script. An earlier report there is replaced; a folder that holds anything else is refused
 /// with Error(BadInput).
 void writeHtml(const std::filesystem::path& folder, const Report& report);
