@@ -54,11 +54,11 @@ std::string caseJson(const ReportCase& one) {
                             pictures.empty() ? "" : ", ", jsonText(set.label), pictureJson(set.expected),
                             pictureJson(set.actual), pictureJson(set.difference));
   return fmt::format(
-      R"({{"name": {}, "passed": {}, "verdict": {}, "severity": {}, "lines": {}, "numbers": {}, )"
-      R"("worst": {}, "curves": {}, "accept": {}, "pictures": [{}]}})",
-      jsonText(one.name), one.passed, jsonText(one.verdict), jsonNumber(one.severity), jsonLines(one.lines),
-      numbersJson(one.numbers), jsonWorst(one.worst), jsonCurves(one.curves), jsonText(one.acceptCommand),
-      pictures);
+      R"({{"name": {}, "passed": {}, "verdict": {}, "severity": {}, "tolerance": {}, "lines": {}, )"
+      R"("numbers": {}, "worst": {}, "curves": {}, "accept": {}, "pictures": [{}]}})",
+      jsonText(one.name), one.passed, jsonText(one.verdict), jsonNumber(one.severity),
+      jsonText(one.tolerance), jsonLines(one.lines), numbersJson(one.numbers), jsonWorst(one.worst),
+      jsonCurves(one.curves), jsonText(one.acceptCommand), pictures);
 }
 
 std::string dataJson(const Report& report) {

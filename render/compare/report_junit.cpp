@@ -110,7 +110,8 @@ void writeJunit(const std::filesystem::path& file, const Report& report) {
     out.write(fmt::format(">\n      <failure message=\"{}\" type=\"{}\">{}</failure>\n    </testcase>\n",
                           xmlText(one.lines.empty() ? one.verdict : one.verdict + ": " + one.lines.front()),
                           xmlText(one.verdict),
-                          xmlText(joined(one.lines) + "tolerance: " + report.tolerance)));
+                          xmlText(joined(one.lines) + "tolerance: " +
+                                  (one.tolerance.empty() ? report.tolerance : one.tolerance))));
   }
   out.write("  </testsuite>\n</testsuites>\n");
   out.commit();
