@@ -1,4 +1,5 @@
 #include "render/output/png.h"
+#include "src/scene/utf8.h"
 #include "tests/support/png_build.h"
 #include "tests/support/process.h"
 #include "tests/support/still_json.h"
@@ -163,6 +164,43 @@ TEST_F(DiffCommand, ABrokenFileNeverGetsAVerdict) {
   }
   EXPECT_THAT(offstage({"diff", a, dir_.write("c.png", good + "tail").string()}).out,
               AllOf(StartsWith("same"), HasSubstr("c.png' has 4 bytes after IEND, which are ignored")));
+}
+
+TEST_F(DiffCommand, WithoutAVerdictTheJunitFileHoldsTheError) {
+  const std::string a = put("a.png", frame_);
+  const std::string b = put("b.png", frame_);
+  const std::string junit = path("x.xml");
+  ASSERT_EQ(offstage({"diff", a, b, "--junit", junit}).status, 0);
+  dir_.write("b.png", pngText(frame_).substr(0, 200));
+  EXPECT_EQ(offstage({"diff", a, b, "--junit", junit}).status, 2);
+  EXPECT_THAT(readFile(junit), AllOf(HasSubstr("tests=\"1\" failures=\"0\" errors=\"1\""),
+                                     HasSubstr("<error message="), HasSubstr("is truncated")));
+  ASSERT_EQ(offstage({"diff", a, a, "--junit", junit}).status, 0);
+  EXPECT_THAT(readFile(junit), HasSubstr("errors=\"0\""));
+  // What is no such report stays, and what is compared is not even looked at.
+  const std::string notes = dir_.write("notes.xml", "<notes/>").string();
+  EXPECT_EQ(offstage({"diff", a, b, "--junit", notes}).status, 2);
+  EXPECT_EQ(readFile(notes), "<notes/>");
+}
+
+TEST_F(DiffCommand, NamesThatAreNotUtf8AreRepairedInJsonAndJunit) {
+  folder("f1", 0, 0);
+  folder("f2", 0, 0);
+  put("f1/q\x01\xff.png", frame_);
+  put("f2/q\x01\xff.png", changed(frame_, 20, 30));
+  const ProcessResult result = offstage({"diff", path("f1"), path("f2"), "--json", "--junit", path("x.xml")});
+  EXPECT_EQ(result.status, 1) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("q\\u0001\uFFFD"));
+  EXPECT_THAT(readFile(path("x.xml")), HasSubstr("q\uFFFD\uFFFD"));
+  EXPECT_NO_THROW(static_cast<void>(decodeUtf8(result.out)));
+  EXPECT_NO_THROW(static_cast<void>(decodeUtf8(readFile(path("x.xml")))));
+}
+
+TEST_F(DiffCommand, ASharesPercentHasTheDigitsThatWereGiven) {
+  const std::string a = put("a.png", frame_);
+  EXPECT_THAT(offstage({"diff", a, a, "--max-ratio", "0.07"}).out,
+              HasSubstr("at most 7 % of the pixels unequal"));
+  EXPECT_THAT(offstage({"diff", a, a, "--max-ratio", "0.000123"}).out, HasSubstr("at most 0.0123 % of"));
 }
 
 TEST_F(DiffCommand, BadUsageIsStatus2AndWritesNothing) {

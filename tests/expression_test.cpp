@@ -113,6 +113,9 @@ TEST(Expression, ErrorsNameThePlace) {
   EXPECT_EQ(errorOf("1, 2"), "0: it holds a ',' outside of a function");
   EXPECT_EQ(errorOf("x\xc2\xb2"), "2: only ASCII characters are allowed");
   EXPECT_EQ(errorOf(std::string("1\0", 2)), "2: only ASCII characters are allowed");
+  EXPECT_EQ(errorOf("sin"), "1: \"sin\" is a function and needs a '(' behind it");
+  EXPECT_EQ(errorOf("x + max * 2"), "5: \"max\" is a function and needs a '(' behind it");
+  EXPECT_EQ(errorOf("sinx"), "1: \"sinx\" is no variable, function or number");
   EXPECT_EQ(errorOf("1e999"), "1: \"1e999\" is no variable, function or number");
 }
 

@@ -214,6 +214,55 @@ TEST(GoldenCommand, ReportsAsJsonAndJunit) {
               AllOf(HasSubstr("offstage.golden"), HasSubstr("fall@0.5s"), HasSubstr("physics changed")));
 }
 
+TEST(GoldenCommand, WithoutAVerdictTheJunitFileHoldsTheError) {
+  const GoldenFolder folder;
+  folder.writeScene("fall", "red", 40);
+  ASSERT_EQ(folder.golden({"record", "."}).status, 0);
+  ASSERT_EQ(folder.golden({"verify", ".", "--junit", "j.xml"}).status, 0);
+  EXPECT_THAT(readFile(folder.dir() / "j.xml"), HasSubstr("errors=\"0\""));
+  folder.dir().write("fall@0s.png", "no picture");
+  const ProcessResult verified = folder.golden({"verify", ".", "--junit", "j.xml"});
+  EXPECT_EQ(verified.status, 2);
+  EXPECT_THAT(verified.err, HasSubstr("cannot be read"));
+  EXPECT_THAT(readFile(folder.dir() / "j.xml"),
+              AllOf(HasSubstr("tests=\"1\" failures=\"0\" errors=\"1\""),
+                    HasSubstr("name=\"offstage golden verify .\""), HasSubstr("<error message="),
+                    HasSubstr("cannot be read")));
+  // What is no such report stays.
+  const std::string scene = readFile(folder.dir() / "fall.toml");
+  EXPECT_EQ(folder.golden({"verify", ".", "--junit", "fall.toml"}).status, 2);
+  EXPECT_EQ(readFile(folder.dir() / "fall.toml"), scene);
+}
+
+TEST(GoldenCommand, SaysTheToleranceThatWasInForce) {
+  const GoldenFolder folder;
+  folder.writeScene("fall", "red", 40, "at = [0]\nmax_pixels = 200");
+  folder.writeScene("other", "red", 40, "at = [0]\nmax_pixels = 200");
+  ASSERT_EQ(folder.golden({"record", "."}).status, 0);
+  folder.writeScene("fall", "blue", 40, "at = [0]\nmax_pixels = 200");
+  const std::string own = "at most 200 px unequal (./fall.toml)";
+  EXPECT_THAT(folder.golden({"verify", "."}).out,
+              AllOf(HasSubstr("  tolerance: each scene's own\n"),
+                    HasSubstr("  tolerance of 1 of 2: " + own + "\n"),
+                    HasSubstr("  tolerance of 1 of 2: at most 200 px unequal (./other.toml)\n")));
+  EXPECT_THAT(
+      folder.golden({"verify", ".", "--json"}).out,
+      AllOf(HasSubstr("\"tolerance\": \"each scene's own\""), HasSubstr("\"tolerance\": \"" + own + "\"")));
+  // Beside a scene that is held to the folder's.
+  folder.writeScene("other", "red", 40, "at = [0]");
+  EXPECT_THAT(folder.golden({"verify", "."}).out,
+              AllOf(HasSubstr("  tolerance: no pixel unequal\n"),
+                    HasSubstr("  tolerance of 1 of 2: " + own + "\n"), Not(HasSubstr("other.toml"))));
+  // One for all needs no more words; a failure names it, too.
+  std::filesystem::remove(folder.dir() / "other.toml");
+  std::filesystem::remove(folder.dir() / "other@0s.png");
+  folder.writeScene("fall", "blue", 40, "at = [0]\nmax_pixels = 20");
+  const ProcessResult one = folder.golden({"verify", ".", "--junit", "j.xml"});
+  EXPECT_THAT(readFile(folder.dir() / "j.xml"), HasSubstr("tolerance: at most 20 px unequal (./fall.toml)"));
+  EXPECT_THAT(one.out, AllOf(HasSubstr("  tolerance: at most 20 px unequal (./fall.toml)\n"),
+                             Not(HasSubstr("tolerance of")), Not(HasSubstr("no pixel unequal"))));
+}
+
 TEST(GoldenCommand, ScenesMayStandInAnotherFolder) {
   const GoldenFolder folder;
   folder.writeScene("fall", "red", 40);

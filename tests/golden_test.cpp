@@ -35,6 +35,29 @@ TEST(GoldenTable, MomentsAreSortedNamedAndWithinTheScene) {
   EXPECT_THAT(errorsOf("[golden]\nat = 1\nmax_pixels = -1\n"), ::testing::SizeIs(2));
 }
 
+TEST(GoldenTable, MomentsBehindAGivenLengthAreLeftOut) {
+  const TempDir dir;
+  dir.write("short.dt", "1000000000\n");
+  const auto at = [&](const std::string& golden, const auto& change) {
+    SceneOverrides overrides;
+    change(overrides);
+    return parseScene(golden, dir / "scene.toml", overrides).golden->at;
+  };
+  const auto forASecond = [](SceneOverrides& overrides) { overrides.duration = 1.0; };
+  const auto byLog = [&](SceneOverrides& overrides) { overrides.dtLog = dir / "short.dt"; };
+  EXPECT_THAT(at("duration = 4\n[golden]\nat = [0, 1, 4]\n", forASecond), ElementsAre(0, 1));
+  EXPECT_THAT(at("duration = 4\n[golden]\nat = [0, 1, 4]\n", byLog), ElementsAre(0, 1));
+  EXPECT_THAT(at("duration = 4\n[golden]\nat = [3, 4]\n", forASecond), IsEmpty());
+  EXPECT_THAT(at("duration = 4\n[golden]\nevery = 1\n", forASecond), ElementsAre(0, 1));
+  // More pictures than may be, but only for this run.
+  EXPECT_THAT(at("duration = 4\n[golden]\nevery = 1\n", [](auto& overrides) { overrides.duration = 2e4; }),
+              IsEmpty());
+  // At 60 frames a second the last step ends at 1 s, at 100 at 0.99 s.
+  const std::string text = "duration = 0.99\n[golden]\nat = [1]\n";
+  EXPECT_THAT(at(text, [](auto&) {}), ElementsAre(1));
+  EXPECT_THAT(at(text, [](auto& overrides) { overrides.fps = 100.0; }), IsEmpty());
+}
+
 GoldenMachine machine(const std::string& processor) {
   GoldenMachine made =
       thisMachine("llvmpipe (LLVM 15.0.6, 256 bits)", "3.3 (Compatibility Profile) Mesa 22.3.6");

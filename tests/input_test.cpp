@@ -18,6 +18,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 constexpr const char* kGame = "# a short game\n"
                               "0.1 mouse 100 50\n"
@@ -121,6 +122,19 @@ TEST(RecordedInput, IsReportedWhereItIsMissingOrWrong) {
               HasSubstr("'on' in [[launch]] cannot stand beside 'at'"));
   EXPECT_THAT(errors(launch + "toward = [1, 1]\n"), HasSubstr("[[launch]] needs 'at', 'frame' or 'on'"));
   EXPECT_THAT(errors("[input]\nlog = 'none.log'\n"), HasSubstr("does not exist beside the scene"));
+}
+
+TEST(RecordedInput, AMissingLogIsTheOnlyError) {
+  for (const char* input : {"log = 'none.log'\n", "log = 3\n", ""}) {
+    const std::string error = errorOf([&] {
+      static_cast<void>(parseScene(fmt::format("[input]\n{}[[launch]]\nspeed = 1\nradius = 1\nfrom = "
+                                               "[0, 0]\ntoward = 'mouse'\non = 'key A'\n",
+                                               input),
+                                   "s.toml"));
+    });
+    EXPECT_THAT(error, HasSubstr("[input]")) << input;
+    EXPECT_THAT(error, Not(HasSubstr("[[launch]]"))) << input;
+  }
 }
 
 /// Notes what its user does in every frame.

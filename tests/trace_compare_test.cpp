@@ -213,6 +213,15 @@ TEST(TraceCompare, ATraceThatEndsEarlierSaysSo) {
               "the expected trace ends with frame 20, the actual one with frame 14");
 }
 
+TEST(TraceCompare, ATraceWithoutRowsHasNoFrame) {
+  const Trace none = rows("");
+  const Trace some = rows(moving(0, 0, 20, 0, 10));
+  EXPECT_THAT(describe(compareTraces(some, none, {})),
+              Contains("the expected trace ends with frame 20, the actual one has no frame"));
+  EXPECT_THAT(describe(compareTraces(none, some, {})),
+              Contains("the expected trace has no frame, the actual one ends with frame 20"));
+}
+
 TEST(TraceCompare, ErrorOverTime) {
   const TraceComparison comparison =
       compareTraces(rows("0,0,0,1,2,5\n1,0.5,0,1,2,5\n3,1.5,0,1,2,5\n"),

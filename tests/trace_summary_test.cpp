@@ -78,5 +78,23 @@ TEST(TraceSummary, TellsOfBodiesThatComeAndGo) {
   EXPECT_THAT(text, HasSubstr("bodies     1 → 2; 2 came, 1 went\n"));
 }
 
+TEST(TraceSummary, WhatBodiesBringOrTakeAlongIsNoDrift) {
+  // Exact motion keeps its energy; spawned bodies bring theirs, and one takes its own along.
+  const std::string exact =
+      summaryOf("duration = 3\n[world]\ngravity = [0, 10]\nintegrator = 'exact'\n"
+                "[[spawn]]\nx = 50\ny = 100\nradius = 5\nlimit = 2\n"
+                "[[body]]\ncenter = [630, 5]\nradius = 2\nvelocity = [100, 0]\nleaving = 'remove'\n");
+  EXPECT_THAT(exact, HasSubstr("2 came, 1 went\n"));
+  EXPECT_THAT(exact, HasSubstr("; without 3 frames in which bodies came or went\n"));
+  const std::size_t begin = exact.find("drift      at most ") + 19;
+  EXPECT_LT(std::stod(exact.substr(begin)), 1e-6) << exact;
+  // Euler's error of the other frames stays.
+  const std::string euler =
+      summaryOf("duration = 1\n[clock]\nfps = 4\n[world]\ngravity = [0, 10]\nintegrator = "
+                "'explicit-euler'\n[[body]]\ncenter = [0, 380]\nradius = 5\n"
+                "[[launch]]\nat = 1\nfrom = [100, 100]\ntoward = [200, 100]\nspeed = 1000\nradius = 1\n");
+  EXPECT_THAT(euler, HasSubstr("drift      at most 9.375 mass·px²/s²"));
+}
+
 } // namespace
 } // namespace offstage::test

@@ -153,6 +153,7 @@ GoldenFinding GoldenStore::verify(const GoldenPicture& picture, const Tolerance*
   const GoldenEntry* entry = lock_.find(picture.name);
   const std::filesystem::path file = pictureFile(picture.name);
   ReportPictures pictures;
+  const Tolerance inForce = tolerance != nullptr ? *tolerance : tolerance_.value_or(Tolerance{});
   if (!hasPicture(picture.name)) {
     finding.verdict = GoldenVerdict::Missing;
     finding.report.name = picture.name;
@@ -160,7 +161,6 @@ GoldenFinding GoldenStore::verify(const GoldenPicture& picture, const Tolerance*
     pictures.actual = reportPicture(picture.frame);
   } else {
     const Frame expected = loadFrame(file);
-    const Tolerance inForce = tolerance != nullptr ? *tolerance : tolerance_.value_or(Tolerance{});
     Comparer comparer(inForce, Metrics::Fast, 1);
     const Comparison comparison = comparer.compare(expected, picture.frame);
     finding.report = reportCase(picture.name, comparison);
@@ -182,6 +182,7 @@ GoldenFinding GoldenStore::verify(const GoldenPicture& picture, const Tolerance*
     }
   }
   finding.report.verdict = name(finding.verdict);
+  finding.report.tolerance = offstage::toleranceText(inForce);
   finding.report.passed = finding.verdict == GoldenVerdict::Same;
   // Among goldens of one verdict, those whose pictures differ more come first.
   finding.report.severity = severityOf(finding.verdict) + std::min(finding.report.severity / 4.0, 0.9);

@@ -50,6 +50,7 @@ struct ReportCase {
   bool passed = true;
   std::string verdict;            ///< a few words: "same", "differs", "physics changed", "golden missing"
   std::vector<std::string> lines; ///< what to read: each failed limit with its numbers, notices
+  std::string tolerance;          ///< its own, in words; empty: the report's
   double severity = 0.0;          ///< orders the list, worst first; 0: same
   double seconds = 0.0;           ///< what the comparison took
   std::vector<ReportNumber> numbers;
@@ -65,7 +66,7 @@ struct Report {
   std::string suite; ///< JUnit's name of the suite: "offstage.diff", "offstage.golden"
   bool passed = true;
   std::string verdict;               ///< of the whole: "same", "differs", "frame count differs", …
-  std::string tolerance;             ///< the tolerance in force, in words
+  std::string tolerance;             ///< the tolerance in force, in words; cases may have their own
   std::vector<std::string> lines;    ///< about the whole: the first differing frame, counts
   std::vector<ReportNumber> numbers; ///< of the whole; empty for a single pair
   std::vector<ReportCurve> curves;   ///< of a sequence
@@ -84,6 +85,10 @@ void writeJson(std::ostream& out, const Report& report);
 /// JUnit's XML, as Jenkins and GitLab read it: a testcase a case, a failure with its lines. Written whole or
 /// not at all; throws as AtomicFile.
 void writeJunit(const std::filesystem::path& file, const Report& report);
+/// The same for a run that came to no verdict: one testcase, `title`, with an error that says why. So that no
+/// earlier run's file stays and is taken for this one's. A file that is no such report is left alone.
+void writeJunitError(const std::filesystem::path& file, const std::string& suite, const std::string& title,
+                     const std::string& message);
 /// A folder that opens from disk with no network: index.html holds data and pictures, beside it one style
 /// sheet and one script. An earlier report there is replaced; a folder that holds anything else is refused
 /// with Error(BadInput).

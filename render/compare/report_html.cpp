@@ -4,6 +4,7 @@
 #include "render/output/atomic_file.h"
 #include "render/output/file_error.h"
 #include "render/output/json_text.h"
+#include "src/scene/utf8.h"
 #include "src/sim/error.h"
 
 #include <array>
@@ -53,11 +54,11 @@ std::string caseJson(const ReportCase& one) {
                             pictures.empty() ? "" : ", ", jsonText(set.label), pictureJson(set.expected),
                             pictureJson(set.actual), pictureJson(set.difference));
   return fmt::format(
-      R"({{"name": {}, "passed": {}, "verdict": {}, "severity": {}, "lines": {}, "numbers": {}, )"
-      R"("worst": {}, "curves": {}, "accept": {}, "pictures": [{}]}})",
-      jsonText(one.name), one.passed, jsonText(one.verdict), jsonNumber(one.severity), jsonLines(one.lines),
-      numbersJson(one.numbers), jsonWorst(one.worst), jsonCurves(one.curves), jsonText(one.acceptCommand),
-      pictures);
+      R"({{"name": {}, "passed": {}, "verdict": {}, "severity": {}, "tolerance": {}, "lines": {}, )"
+      R"("numbers": {}, "worst": {}, "curves": {}, "accept": {}, "pictures": [{}]}})",
+      jsonText(one.name), one.passed, jsonText(one.verdict), jsonNumber(one.severity),
+      jsonText(one.tolerance), jsonLines(one.lines), numbersJson(one.numbers), jsonWorst(one.worst),
+      jsonCurves(one.curves), jsonText(one.acceptCommand), pictures);
 }
 
 std::string dataJson(const Report& report) {
@@ -85,7 +86,7 @@ std::string dataJson(const Report& report) {
 
 std::string htmlText(std::string_view text) {
   std::string html;
-  for (const char c : text) {
+  for (const char c : repairedUtf8(text)) {
     if (c == '&')
       html += "&amp;";
     else if (c == '<')

@@ -94,6 +94,7 @@ void writeJson(std::ostream& out, const Report& report) {
                R"({{"name": {}, "passed": {}, "verdict": {}, "severity": {}, "seconds": {}, "lines": {}{})",
                jsonText(one.name), one.passed, jsonText(one.verdict), jsonNumber(one.severity),
                jsonNumber(one.seconds), jsonLines(one.lines), jsonMembers(one.numbers));
+    if (!one.tolerance.empty()) out << ", \"tolerance\": " << jsonText(one.tolerance);
     if (!one.worst.empty()) out << ", \"worst_pixels\": " << jsonWorst(one.worst);
     if (!one.curves.empty()) out << ", \"curves\": " << jsonCurves(one.curves);
     if (!one.acceptCommand.empty()) out << ", \"accept\": " << jsonText(one.acceptCommand);

@@ -1,17 +1,23 @@
 #include "render/compare/report.h"
 #include "render/output/atomic_file.h"
+#include "src/scene/utf8.h"
 
 #include <algorithm>
+#include <fstream>
+#include <string_view>
+#include <system_error>
 
 #include <fmt/format.h>
 
 namespace offstage {
 namespace {
 
-/// Text for XML 1.0. Control characters that XML cannot hold become U+FFFD.
+constexpr std::string_view kDeclaration = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+
+/// Text for XML 1.0. Control characters that XML cannot hold and bytes that are not UTF-8 become U+FFFD.
 std::string xmlText(std::string_view text) {
   std::string xml;
-  for (const char c : text) {
+  for (const char c : repairedUtf8(text)) {
     switch (c) {
     case '&':
       xml += "&amp;";
@@ -44,7 +50,34 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
+/// Whether nothing would be lost: no file, an empty one, or an earlier writeJunit's or writeJunitError's.
+bool mayBeReplaced(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) return true;
+  if (!std::filesystem::is_regular_file(file, error)) return false;
+  const std::string start = std::string(kDeclaration) + "<testsuites ";
+  std::string head(start.size(), '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  return in.gcount() == 0 ? std::filesystem::file_size(file, error) == 0 : head == start;
+}
+
 } // namespace
+
+void writeJunitError(const std::filesystem::path& file, const std::string& suite, const std::string& title,
+                     const std::string& message) {
+  if (!mayBeReplaced(file)) return;
+  AtomicFile out(file);
+  out.write(kDeclaration);
+  out.write(fmt::format("<testsuites tests=\"1\" failures=\"0\" errors=\"1\" time=\"0.000\">\n"
+                        "  <testsuite name=\"{0}\" tests=\"1\" failures=\"0\" errors=\"1\" skipped=\"0\" "
+                        "time=\"0.000\">\n"
+                        "    <testcase classname=\"{0}\" name=\"{1}\" time=\"0.000\">\n"
+                        "      <error message=\"{2}\" type=\"no verdict\">{2}</error>\n"
+                        "    </testcase>\n  </testsuite>\n</testsuites>\n",
+                        xmlText(suite), xmlText(title), xmlText(message)));
+  out.commit();
+}
 
 void writeJunit(const std::filesystem::path& file, const Report& report) {
   // A sequence is a case of its own: frames may be missing, or only the whole may fail.
@@ -62,7 +95,7 @@ void writeJunit(const std::filesystem::path& file, const Report& report) {
   for (const ReportCase& one : cases) seconds += one.seconds;
 
   AtomicFile out(file);
-  out.write("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+  out.write(kDeclaration);
   out.write(fmt::format("<testsuites tests=\"{0}\" failures=\"{1}\" errors=\"0\" time=\"{2:.3f}\">\n"
                         "  <testsuite name=\"{3}\" tests=\"{0}\" failures=\"{1}\" errors=\"0\" skipped=\"0\" "
                         "time=\"{2:.3f}\">\n",
@@ -77,7 +110,8 @@ void writeJunit(const std::filesystem::path& file, const Report& report) {
     out.write(fmt::format(">\n      <failure message=\"{}\" type=\"{}\">{}</failure>\n    </testcase>\n",
                           xmlText(one.lines.empty() ? one.verdict : one.verdict + ": " + one.lines.front()),
                           xmlText(one.verdict),
-                          xmlText(joined(one.lines) + "tolerance: " + report.tolerance)));
+                          xmlText(joined(one.lines) + "tolerance: " +
+                                  (one.tolerance.empty() ? report.tolerance : one.tolerance))));
   }
   out.write("  </testsuite>\n</testsuites>\n");
   out.commit();

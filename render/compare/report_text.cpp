@@ -1,6 +1,9 @@
 #include "render/compare/report.h"
 
 #include <cmath>
+#include <cstddef>
+#include <map>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -48,13 +51,24 @@ void writeWorst(std::ostream& out, const std::vector<PixelPair>& worst) {
                        colorText(pixel, pixel.actual));
 }
 
+/// The run's tolerance, and those of cases that were held to another: also of cases that pass, which are not
+/// listed.
+void writeTolerances(std::ostream& out, const Report& report) {
+  out << "  tolerance: " << report.tolerance << '\n';
+  std::map<std::string, std::size_t> others;
+  for (const ReportCase& one : report.cases)
+    if (!one.tolerance.empty() && one.tolerance != report.tolerance) ++others[one.tolerance];
+  for (const auto& [tolerance, count] : others)
+    out << fmt::format("  tolerance of {} of {}: {}\n", count, report.cases.size(), tolerance);
+}
+
 } // namespace
 
 void writeText(std::ostream& out, const Report& report) {
   // A single pair is the whole; of more, those that pass are only counted.
   const bool single = report.cases.size() == 1 && report.numbers.empty();
   out << report.verdict << '\n';
-  out << "  tolerance: " << report.tolerance << '\n';
+  writeTolerances(out, report);
   for (const std::string& line : report.lines) out << "  " << line << '\n';
   writeNumbers(out, report.numbers);
   for (const ReportCase& one : report.cases) {

@@ -163,6 +163,16 @@ const Tolerance* toleranceOf(const Scene& scene) {
   return scene.golden->hasTolerance ? &scene.golden->tolerance : nullptr;
 }
 
+/// The tolerance that all drawn goldens were held to, in words; where scenes have different ones, the
+/// folder's, or that each has its own.
+std::string toleranceOfAll(const Report& report, const std::string& ofFolder) {
+  std::set<std::string> own;
+  for (const ReportCase& one : report.cases)
+    if (!one.tolerance.empty()) own.insert(one.tolerance); // obsolete ones are held to nothing
+  if (own.empty() || own.contains(ofFolder)) return ofFolder;
+  return own.size() == 1 ? *own.begin() : "each scene's own";
+}
+
 /// Says how many goldens have which verdict; of a single one, its name and verdict.
 void summarize(Report& report) {
   std::map<std::string, std::size_t> counts;
@@ -197,7 +207,6 @@ Report verifyGoldens(const GoldenFolders& folders, WarningLog::Mode mode) {
   Report report;
   report.title = "offstage golden verify " + folders.goldens.string();
   report.suite = "offstage.golden";
-  report.tolerance = store.toleranceText();
 
   std::set<std::string> wanted;
   for (const Scene& scene : scenes) {
@@ -224,6 +233,7 @@ Report verifyGoldens(const GoldenFolders& folders, WarningLog::Mode mode) {
     out.keepObsolete(name);
     report.cases.push_back(std::move(finding.report));
   }
+  report.tolerance = toleranceOfAll(report, store.toleranceText());
   summarize(report);
   out.finish(report);
   return report;

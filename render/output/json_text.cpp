@@ -1,12 +1,14 @@
 #include "render/output/json_text.h"
 
+#include "src/scene/utf8.h"
+
 #include <fmt/format.h>
 
 namespace offstage {
 
 std::string jsonText(std::string_view text) {
   std::string json = "\"";
-  for (const char c : text) {
+  for (const char c : repairedUtf8(text)) {
     if (c == '"' || c == '\\')
       json += {'\\', c};
     else if (static_cast<unsigned char>(c) < 0x20)

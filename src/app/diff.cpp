@@ -6,6 +6,7 @@
 #include "render/output/file_error.h"
 #include "render/output/png.h"
 #include "src/app/commands.h"
+#include "src/app/junit_option.h"
 #include "src/app/tolerance_options.h"
 #include "src/app/trace_options.h"
 
@@ -97,10 +98,14 @@ int run(const Arguments& arguments, const CLI::App& verb) {
     requireOutside(output, arguments);
     requireWritable(output.out);
   }
-  if (!arguments.html.empty()) requireReportFolder(arguments.html);
-
-  const CompareResult result = compare(arguments, verb);
-  if (result.strip) writePng(arguments.strip, *result.strip);
+  const std::string title =
+      fmt::format("offstage diff {} {}", arguments.expected.string(), arguments.actual.string());
+  const CompareResult result = withJunit(arguments.junit, "offstage.diff", title, [&] {
+    if (!arguments.html.empty()) requireReportFolder(arguments.html);
+    CompareResult compared = compare(arguments, verb);
+    if (compared.strip) writePng(arguments.strip, *compared.strip);
+    return compared;
+  });
   if (!arguments.junit.empty()) writeJunit(arguments.junit, result.report);
   if (!arguments.html.empty()) writeHtml(arguments.html, result.report);
   if (arguments.json)

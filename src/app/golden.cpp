@@ -2,6 +2,7 @@
 #include "render/job/command_line.h"
 #include "render/job/golden_job.h"
 #include "src/app/commands.h"
+#include "src/app/junit_option.h"
 #include "src/sim/error.h"
 
 #include <iostream>
@@ -55,7 +56,9 @@ int record(const Arguments& arguments) {
 }
 
 int verify(const Arguments& arguments) {
-  const Report report = verifyGoldens(arguments.folders(), arguments.mode());
+  const Report report =
+      withJunit(arguments.junit, "offstage.golden", "offstage golden verify " + arguments.goldens.string(),
+                [&] { return verifyGoldens(arguments.folders(), arguments.mode()); });
   if (!arguments.junit.empty()) writeJunit(arguments.junit, report);
   if (arguments.json) {
     writeJson(std::cout, report);

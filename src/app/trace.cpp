@@ -60,8 +60,8 @@ void addTrace(CLI::App& app, Action& action) {
       ->type_name("FILE");
   verb.add_flag(
       "--summary", arguments->summary,
-      "print what the run comes to: momentum, energy and its drift, contacts, the largest overlap; the "
-      "trace itself is then only written where -o is given");
+      "print what the run comes to: momentum, energy and its drift (but for frames in which bodies come or "
+      "go), contacts, the largest overlap; the trace itself is then only written where -o is given");
   addSceneOptions(verb, arguments->options);
   addStrictOption(verb, arguments->options.strict);
   verb.callback([arguments, &action, &verb] {

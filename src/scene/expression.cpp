@@ -83,6 +83,13 @@ void defineOperators(mu::Parser& parser) {
   parser.DefineInfixOprt("+", [](double a) { return a; });
 }
 
+bool isFunction(const std::string& name) {
+  mu::Parser parser;
+  parser.ClearFun();
+  defineFunctions(parser);
+  return parser.GetFunDef().contains(name);
+}
+
 /// muParser's own messages name positions from 0 and types of its own; these say it in the user's words.
 std::string problemOf(const mu::ParserError& error) {
   std::string rest = error.GetToken(); // may be all that follows, with a blank that muParser appends
@@ -90,6 +97,7 @@ std::string problemOf(const mu::ParserError& error) {
   const std::string token = quotedText(rest);
   switch (error.GetCode()) {
   case mu::ecUNASSIGNABLE_TOKEN:
+    if (isFunction(rest)) return fmt::format("{} is a function and needs a '(' behind it", token);
     return fmt::format("{} is no variable, function or number", token);
   case mu::ecUNEXPECTED_EOF:
     return "it ends too early";

@@ -9,7 +9,8 @@ namespace offstage {
 
 /// `[golden]`: which moments of a scene are kept as pictures that later drawings are held to.
 struct GoldenMoments {
-  std::vector<double> at;    ///< s, each within the clock, in order, each once; not empty
+  /// s, each within the clock, in order, each once; empty only where a command line gives the length.
+  std::vector<double> at;
   Tolerance tolerance;       ///< for its pictures
   bool hasTolerance = false; ///< false: the folder's tolerance.toml holds, or none
 };

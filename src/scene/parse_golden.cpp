@@ -29,6 +29,7 @@ void readList(SceneBuilder& builder, const TableReader& reader, std::vector<doub
     if (!seconds) continue;
     const double end = builder.videoSeconds;
     if (*seconds > end + 1e-9) {
+      if (builder.lengthIsGiven) continue;
       builder.errors.add(value, fmt::format("value {} of {} is {} s, but the scene ends at {} s", i + 1, what,
                                             numberText(*seconds), numberText(end)));
       continue;
@@ -42,6 +43,7 @@ void readList(SceneBuilder& builder, const TableReader& reader, std::vector<doub
 void addEvery(SceneBuilder& builder, const TableReader& reader, double every, std::vector<double>& at) {
   const double end = builder.videoSeconds;
   if (end / every > static_cast<double>(kMostMoments)) {
+    if (builder.lengthIsGiven) return;
     reader.reject("every", fmt::format("gives more than {} pictures", kMostMoments));
     return;
   }
@@ -52,6 +54,8 @@ void addEvery(SceneBuilder& builder, const TableReader& reader, double every, st
 
 } // namespace
 
+// Goldens are drawn by the scene's own clock. A run whose length a command line gives draws none, so moments
+// that do not fit into it are only left out.
 void parseGolden(SceneBuilder& builder, const TomlValue& table) {
   const TableReader reader(table, {"golden"}, "[golden]", builder.errors);
   GoldenMoments golden;

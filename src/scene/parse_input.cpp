@@ -8,6 +8,7 @@ void parseInput(SceneBuilder& builder, const TomlValue* table, const SceneOverri
     const TableReader reader(*table, {"input"}, "[input]", builder.errors);
     reader.string("log");
     if (!file) file = builder.readFile(reader, "log");
+    builder.input.emplace(); // whatever is wrong with the log: launches should not complain, too
   }
   if (!file) return;
   try {
@@ -15,7 +16,7 @@ void parseInput(SceneBuilder& builder, const TomlValue* table, const SceneOverri
     builder.scene.files.push_back(*file);
   } catch (const SceneError& problems) {
     builder.errors.add(problems);
-    builder.input = InputLog{}; // so that launches do not complain, too
+    builder.input.emplace();
   }
 }
 

@@ -61,6 +61,8 @@ void parseTables(SceneBuilder& builder, const TomlValue& root, const SceneOverri
   parseSingle(builder, top, "frame", parseFrame);
   checkScale(builder, top, overrides.scale);
   scene.world.pane = Vec2(scene.size[0], scene.size[1]);
+  // With another frame rate the last step may end elsewhere.
+  builder.lengthIsGiven = overrides.duration || overrides.dtLog || overrides.fps;
   parseClock(builder, singleTable(top, "clock"), top, overrides);
   if (const TomlValue* replay = singleTable(top, "replay")) parseReplay(builder, *replay, top, overrides);
   // The view and the world's integrator come before everything that they hold for.

@@ -31,8 +31,9 @@ struct SceneBuilder {
   View view;
   double videoSeconds =
       0.0; ///< s: how long the video is, as far as the scene itself can tell; after parseTimeline
+  bool lengthIsGiven = false; ///< by a command line, in place of the scene's own clock and duration
   Integrator integrator = Integrator::SemiImplicitEuler; ///< the world's
-  std::optional<InputLog> input;                         ///< [input]
+  std::optional<InputLog> input;                         ///< [input]; empty where its log is wrong
   bool substepsGiven = false;                            ///< by [clock]
   LookTable looks;
   std::map<std::string, std::uint32_t, std::less<>> groups; ///< by name: index into WorldSetup::groups

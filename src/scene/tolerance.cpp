@@ -3,6 +3,14 @@
 #include <fmt/format.h>
 
 namespace offstage {
+namespace {
+
+/// A share in %, in the digits that were given for it: times 100, 0.07 is 7.000000000000001.
+std::string percentText(double share) {
+  return fmt::format("{:.15g}", share * 100);
+}
+
+} // namespace
 
 std::string toleranceText(const Tolerance& tolerance) {
   std::string text;
@@ -15,7 +23,7 @@ std::string toleranceText(const Tolerance& tolerance) {
     if (!tolerance.maxPixels && !tolerance.maxRatio && !tolerance.maxCluster) add("no pixel " + pixels);
     if (tolerance.maxPixels) add(fmt::format("at most {} px {}", *tolerance.maxPixels, pixels));
     if (tolerance.maxRatio)
-      add(fmt::format("at most {} % of the pixels {}", *tolerance.maxRatio * 100, pixels));
+      add(fmt::format("at most {} % of the pixels {}", percentText(*tolerance.maxRatio), pixels));
     if (tolerance.maxCluster) add(fmt::format("at most {} px {} together", *tolerance.maxCluster, pixels));
   }
   if (tolerance.flipMax) add(fmt::format("FLIP at most {} anywhere", *tolerance.flipMax));

@@ -30,7 +30,7 @@ void TraceSummary::add(const World& world) {
     probe.quantity = quantity;
     return withoutNanSign(valueOf(probe, snapshot));
   };
-  const std::size_t before = end_.bodies;
+  const Totals before = end_;
   end_ = {world.frame(),
           world.time(),
           world.bodies().size(),
@@ -38,14 +38,29 @@ void TraceSummary::add(const World& world) {
           total(Quantity::Py),
           total(Quantity::Kinetic),
           total(Quantity::Potential)};
-  if (!start_) start_ = end_;
-  const double drift = std::abs(end_.energy() - start_->energy());
-  if (drift > drift_.energy || std::isnan(drift)) drift_ = {drift, end_.frame};
-  const std::int64_t made = made_;
+  const std::int64_t madeBefore = made_;
   countEvents(world);
-  if (end_.frame > start_->frame)
-    gone_ += static_cast<std::int64_t>(before) + (made_ - made) - static_cast<std::int64_t>(end_.bodies);
+  const std::int64_t made = made_ - madeBefore;
+  if (!start_) {
+    start_ = end_;
+    unmoved_ = end_.energy();
+    addDrift(end_, true);
+  } else {
+    const std::int64_t gone =
+        static_cast<std::int64_t>(before.bodies) + made - static_cast<std::int64_t>(end_.bodies);
+    gone_ += gone;
+    addDrift(before, made == 0 && gone == 0);
+  }
   findOverlaps(world);
+}
+
+void TraceSummary::addDrift(const Totals& before, bool sameBodies) {
+  if (!sameBodies) {
+    ++leftOut_;
+    unmoved_ += end_.energy() - before.energy();
+  }
+  const double drift = std::abs(end_.energy() - unmoved_);
+  if (drift > drift_.energy || std::isnan(drift)) drift_ = {drift, end_.frame};
 }
 
 void TraceSummary::countEvents(const World& world) {
@@ -121,7 +136,11 @@ std::string TraceSummary::text() const {
   text += fmt::format("drift      at most {} mass·px²/s²", drift_.energy);
   if (start.energy() != 0.0)
     text += fmt::format(", {:.3g} of the energy at the start", drift_.energy / std::abs(start.energy()));
-  text += fmt::format(", in frame {}\n", drift_.frame);
+  text += fmt::format(", in frame {}", drift_.frame);
+  if (leftOut_ > 0)
+    text +=
+        fmt::format("; without {} frame{} in which bodies came or went", leftOut_, leftOut_ == 1 ? "" : "s");
+  text += '\n';
   text += fmt::format("contacts   {} collisions, {} hits, {} touches, {} at walls\n", collisions_, hits_,
                       touches_, walls_);
   if (!overlap_) return text + "overlap    none\n";

@@ -34,6 +34,16 @@ std::string eventText(const TraceEventDifference& difference) {
              : fmt::format("{}; in the {} one never", text, there);
 }
 
+/// Of traces that do not end with the same frame.
+std::string endsText(const std::array<std::int64_t, 2>& lastFrame) {
+  const auto [expected, actual] = lastFrame;
+  if (expected < 0)
+    return fmt::format("the expected trace has no frame, the actual one ends with frame {}", actual);
+  if (actual < 0)
+    return fmt::format("the expected trace ends with frame {}, the actual one has no frame", expected);
+  return fmt::format("the expected trace ends with frame {}, the actual one with frame {}", expected, actual);
+}
+
 } // namespace
 
 std::string describe(const TraceDeviation& deviation) {
@@ -54,9 +64,7 @@ std::vector<std::string> describe(const TraceComparison& comparison) {
   if (presence && first && presence->frame >= first->frame) tellPresence();
   if (comparison.firstEvent)
     lines.push_back("first event that differs: " + eventText(*comparison.firstEvent));
-  if (comparison.lastFrame[0] != comparison.lastFrame[1])
-    lines.push_back(fmt::format("the expected trace ends with frame {}, the actual one with frame {}",
-                                comparison.lastFrame[0], comparison.lastFrame[1]));
+  if (comparison.lastFrame[0] != comparison.lastFrame[1]) lines.push_back(endsText(comparison.lastFrame));
   for (const auto& worst : comparison.worst) {
     if (worst) lines.push_back(fmt::format("worst {}: {}", name(worst->quantity), deviationText(*worst)));
   }

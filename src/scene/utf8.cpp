@@ -4,11 +4,14 @@
 #include "src/sim/error.h"
 
 #include <cstddef>
+#include <optional>
 
 #include <fmt/core.h>
 
 namespace offstage {
 namespace {
+
+constexpr std::string_view kReplacement = "\xEF\xBF\xBD"; // U+FFFD
 
 /// What a first byte says of its sequence: how many bytes follow, and its own bits of the character.
 struct Lead {
@@ -26,6 +29,27 @@ Lead leadOf(unsigned char byte) {
   return {};
 }
 
+/// The character at the start of a text, and how many bytes it takes; nothing where these are not UTF-8.
+struct Decoded {
+  char32_t character = 0;
+  std::size_t length = 0;
+};
+
+std::optional<Decoded> decodeFirst(std::string_view text) {
+  const Lead lead = leadOf(static_cast<unsigned char>(text.front()));
+  if (lead.following < 0 || static_cast<std::size_t>(lead.following) >= text.size()) return std::nullopt;
+  const std::size_t length = static_cast<std::size_t>(lead.following) + 1;
+  char32_t character = lead.bits;
+  for (std::size_t k = 1; k < length; ++k) {
+    const auto byte = static_cast<unsigned char>(text[k]);
+    if ((byte & 0xc0U) != 0x80U) return std::nullopt;
+    character = character << 6U | (byte & 0x3fU);
+  }
+  const bool surrogate = character >= 0xd800 && character < 0xe000;
+  if (character < lead.least || character > 0x10ffff || surrogate) return std::nullopt;
+  return Decoded{character, length};
+}
+
 [[noreturn]] void fail(std::string_view text, std::size_t at) {
   throw Error(ExitCode::BadInput,
               fmt::format("the text {} is not UTF-8 (byte {})", quotedText(text), at + 1));
@@ -36,20 +60,23 @@ Lead leadOf(unsigned char byte) {
 std::u32string decodeUtf8(std::string_view text) {
   std::u32string characters;
   for (std::size_t i = 0; i < text.size();) {
-    const Lead lead = leadOf(static_cast<unsigned char>(text[i]));
-    if (lead.following < 0 || i + static_cast<std::size_t>(lead.following) >= text.size()) fail(text, i);
-    char32_t character = lead.bits;
-    for (int k = 1; k <= lead.following; ++k) {
-      const auto byte = static_cast<unsigned char>(text[i + static_cast<std::size_t>(k)]);
-      if ((byte & 0xc0U) != 0x80U) fail(text, i);
-      character = character << 6U | (byte & 0x3fU);
-    }
-    const bool surrogate = character >= 0xd800 && character < 0xe000;
-    if (character < lead.least || character > 0x10ffff || surrogate) fail(text, i);
-    characters.push_back(character);
-    i += static_cast<std::size_t>(lead.following) + 1;
+    const std::optional<Decoded> decoded = decodeFirst(text.substr(i));
+    if (!decoded) fail(text, i);
+    characters.push_back(decoded->character);
+    i += decoded->length;
   }
   return characters;
+}
+
+std::string repairedUtf8(std::string_view text) {
+  std::string result;
+  result.reserve(text.size());
+  while (!text.empty()) {
+    const std::optional<Decoded> decoded = decodeFirst(text);
+    result += decoded ? text.substr(0, decoded->length) : kReplacement;
+    text.remove_prefix(decoded ? decoded->length : 1);
+  }
+  return result;
 }
 
 std::string encodeUtf8(char32_t c) {

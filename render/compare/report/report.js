@@ -388,7 +388,8 @@ async function select(index) {
     if (here) item.scrollIntoView({ block: "nearest" });
   });
   element("name").textContent = one.name;
-  element("lines").replaceChildren(...one.lines.map(line => make("li", { textContent: line })));
+  const own = one.tolerance && one.tolerance !== report.tolerance ? [`tolerance: ${one.tolerance}`] : [];
+  element("lines").replaceChildren(...one.lines.concat(own).map(line => make("li", { textContent: line })));
   element("numbers").replaceChildren(...one.numbers.filter(number => number.label).map(number =>
     make("tr", {}, make("th", { scope: "row", textContent: number.label }), make("td", { textContent: text(number) }))));
   showWorst(one);
