@@ -79,7 +79,11 @@ void PanelSet::makeCaptions(const Scene& scene) {
     caption.look.color = inkOn(scene.background);
     caption.look.anchor = overlaid ? NinePosition::Left : NinePosition::Center;
     const auto place = panels.place(i, scene.size[0], scene.size[1]);
-    if (!overlaid) caption.at = Vec2(place[0] + 0.5 * place[2], place[1] - 0.5 * line);
+    if (overlaid) {
+      caption.at += Vec2(place[0], place[1]);
+    } else {
+      caption.at = Vec2(place[0] + 0.5 * place[2], place[1] - 0.5 * line);
+    }
     texts_.require(caption.look, caption.text);
     FittedText fitted = fitText(texts_, caption.text, caption.look, overlaid ? place[2] - line : place[2],
                                 kLeastShare * caption.look.size, caption.dot ? 3.0 * kDotRadius : 0.0);
