@@ -91,6 +91,33 @@ TEST(Panels, OverlaidPanesKeepTheirAspectInAnyPicture) {
   }
 }
 
+/// Around panes that reach to the picture's edge it lies there, not beyond.
+TEST(Panels, FramesAreWholeWithoutAnyGap) {
+  for (const double scale : {1.0, 2.0}) {
+    for (const int gap : {0, 10}) {
+      const Scene scene = sceneOf("duration = 1\n[frame]\nsize = [200, 100]\n[[panel]]\n[[panel]]\n"
+                                  "[panels]\ncolumns = 1\ngap = " +
+                                  std::to_string(gap) + "\n");
+      SceneSource source(scene, Viewport::scaled(scene.size[0], scene.size[1], scale));
+      Picture picture;
+      source.draw(picture);
+      const Frame frame = drawOnce(picture);
+      const auto line = static_cast<int>(scale);
+      const int first = gap == 0 ? 0 : gap * line - line; // px: where the upper left pane's line begins
+      const Rgba8 none{255, 255, 255, 255};
+      for (int i = first; i < first + line; ++i) {
+        const int right = frame.width - 1 - i;
+        const int bottom = frame.height - 1 - i;
+        EXPECT_NE(pixel(frame, i, 50 * line), none) << "left, gap " << gap << ", scale " << scale;
+        EXPECT_NE(pixel(frame, right, 50 * line), none) << "right, gap " << gap << ", scale " << scale;
+        EXPECT_NE(pixel(frame, 100 * line, i), none) << "top, gap " << gap << ", scale " << scale;
+        EXPECT_NE(pixel(frame, 100 * line, bottom), none) << "bottom, gap " << gap << ", scale " << scale;
+      }
+      EXPECT_EQ(pixel(frame, first + line, 50 * line), none) << "gap " << gap << ", scale " << scale;
+    }
+  }
+}
+
 /// Each pane shows exactly what its world shows alone, and nothing of a neighbour.
 TEST(Panels, ShowTheirWorldsInStep) {
   const std::string half = "[[panel]]\n[[panel]]\nclock.fps = 10\n[panels]\ngap = 10\n";
