@@ -355,6 +355,39 @@ TEST(Overlay, ACamerasRulerHasItsLengthBesideItAtItsSize) {
   }
 }
 
+/// A ruler of 200 px around the frame's middle, `angle` from the x axis.
+struct Ruler {
+  Vec2 ahead;
+  Vec2 from;
+  std::string text; ///< its table without further keys
+  explicit Ruler(double angle)
+      : ahead(std::cos(angle), std::sin(angle)), from(Vec2(Vec2(320.0, 240.0) - 100.0 * ahead)) {
+    const Vec2 to = from + 200.0 * ahead;
+    text = fmt::format("duration = 1\n[[ruler]]\nfrom = [{:.17g}, {:.17g}]\nto = [{:.17g}, {:.17g}]\n",
+                       from.x(), from.y(), to.x(), to.y());
+  }
+  [[nodiscard]] Vec2 aside() const { return {-ahead.y(), ahead.x()}; }
+};
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+TEST(Overlay, ARulersLengthIsClearOfItsTicksAtEveryAngle) {
+  for (const double width : {2.0, 6.0}) {
+    for (int degrees = 0; degrees < 360; degrees += 5) {
+      const Ruler ruler(degrees * kDegree);
+      const std::string scene = ruler.text + "unit = \"px\"\nwidth = " + std::to_string(width) + "\n";
+      const double ticks = 9.0;
+      double nearest = 1e9;
+      for (const auto& [left, top, right, bottom] : lettersOf(scene))
+        for (const Vec2& corner :
+             {Vec2(left, top), Vec2(left, bottom), Vec2(right, top), Vec2(right, bottom)})
+          nearest = std::min(nearest, std::abs((corner - ruler.from).dot(ruler.aside())));
+      EXPECT_GE(nearest, ticks + 2.0) << degrees << " degrees, width " << width;
+      EXPECT_LE(nearest, ticks + 14.0) << degrees << " degrees, width " << width;
+    }
+  }
+}
+
 TEST(Overlay, TellsWhatIsWrong) {
   const auto errors =
       errorsOf("[[trail]]\nof = \"nobody\"\nlength = -1\n[[ghost]]\nfade = true\n"

@@ -330,21 +330,30 @@ void OverlayPainter::ruler(Picture& picture, const RulerOverlay& ruler, const No
   tick(whole, kLongTick);
   for (double k = 1.0; k * ruler.step < whole - 1e-6 * ruler.step && k <= kMostTicks; k += 1.0)
     tick(k * ruler.step, std::fmod(k, 5.0) == 0.0 ? kLongTick : kTick);
-  if (ruler.unit.empty()) return;
+  if (!ruler.unit.empty()) rulerLength(picture, ruler, {*from, *to}, now);
+}
+
+/// Beside the ruler's middle, above it or, where it is steep, to the right: so far away that the text's box
+/// is clear of the ticks. A camera makes the ticks longer, and not the text.
+void OverlayPainter::rulerLength(Picture& picture, const RulerOverlay& ruler, const std::array<Vec2, 2>& ends,
+                                 const Now& now) const {
+  const double whole = length(ends[1] - ends[0]);
+  const Vec2 ahead = (ends[1] - ends[0]) / whole;
   const double unit = overlays_.units.pixels;
   const std::string text = fmt::format("{} {}", tickLabel(whole / unit, unit > 1.0 ? 0.01 : 1.0), ruler.unit);
-  // Beside the middle, on the side that is to the right or above.
   Vec2 beside(-ahead.y(), ahead.x());
-  if (beside.x() < -1e-9 || (std::abs(beside.x()) <= 1e-9 && beside.y() > 0.0)) beside = -beside;
+  const bool steep = std::abs(beside.x()) > 0.5; // by more than 30°
+  if (steep ? beside.x() < 0.0 : beside.y() > 0.0) beside = -beside;
   TextLook look;
   look.size = ruler.labelSize;
   look.color = ruler.color;
-  look.anchor = std::abs(beside.x()) > 0.5 ? NinePosition::Left : NinePosition::Bottom;
-  // A camera makes the ticks longer, and not the text.
+  look.anchor = NinePosition::Center;
+  const Viewport& camera = now.painter.viewport();
   const Viewport& frame = now.texts.viewport();
-  const double away = kLongTick * (viewport.scale / frame.scale) + 0.3 * ruler.labelSize;
-  const Vec2 middle = shownAt(*from + ahead * (0.5 * whole), frame, viewport);
-  now.texts.draw(picture, text, look, middle + beside * away, 1.0, true);
+  const double ticks = kLongTick * (camera.scale / frame.scale);
+  const double reach = 0.5 * beside.cwiseAbs().dot(now.texts.measure(text, look)); // of the box towards it
+  const Vec2 middle = shownAt(0.5 * (ends[0] + ends[1]), frame, camera);
+  now.texts.draw(picture, text, look, middle + beside * (ticks + 0.3 * ruler.labelSize + reach), 1.0, true);
 }
 
 } // namespace offstage
