@@ -18,8 +18,9 @@ namespace {
 
 constexpr double kHeadPerWidth = 4.0; ///< an arrow's head in widths of its shaft
 constexpr double kLeastArrow = 1.0;   ///< px: a shorter one is not drawn
-constexpr double kTick = 5.0;         ///< px to either side of a ruler
+constexpr double kTick = 5.0;         ///< px to either side of a ruler of the usual width or a thinner one
 constexpr double kLongTick = 9.0;     ///< px: every fifth, and the ends
+constexpr double kUsualRuler = 2.0;   ///< px wide; of a wider one the ticks are longer in proportion
 constexpr double kMostTicks = 2000.0;
 
 Rgba8 bytes(const Color& color, double opacity = 1.0) {
@@ -317,18 +318,30 @@ void OverlayPainter::ruler(Picture& picture, const RulerOverlay& ruler, const No
   const double whole = length(*to - *from);
   const Vec2 ahead = (*to - *from) / whole;
   const Vec2 aside = Vec2(-ahead.y(), ahead.x()) * viewport.scale;
+  const double half = 0.5 * ruler.width;
+  const double longer = std::max(ruler.width / kUsualRuler, 1.0);
   Pen pen(picture, ruler.width * viewport.scale, bytes(ruler.color));
-  pen.line(toOutput(viewport, *from), toOutput(viewport, *to));
-  // Ticks stand on the line and not across it, where a translucent one would show twice.
+  // As far as the outer sides of the ticks at its ends.
+  pen.line(toOutput(viewport, *from - ahead * half), toOutput(viewport, *to + ahead * half));
+  // Ticks stand on the line and not across it, where a translucent one would show twice. Where an edge of the
+  // line lies within pixels, a tick begins half a pixel inside it: else both edges let the background
+  // through.
+  const auto side = [&](const Vec2& at, const Vec2& outward, double reach) {
+    const Vec2 foot = at + outward * half;
+    const int axis = std::abs(outward.x()) > std::abs(outward.y()) ? 0 : 1;
+    const bool onEdge = outward[1 - axis] == 0.0 && std::abs(foot[axis] - std::round(foot[axis])) < 1e-6;
+    pen.line(onEdge ? foot : Vec2(foot - outward * (0.5 / viewport.scale)), at + outward * reach);
+  };
   const auto tick = [&](double distance, double reach) {
     const Vec2 at = toOutput(viewport, *from + ahead * distance);
-    const Vec2 foot = aside * (0.5 * ruler.width);
-    pen.line(at + foot, at + aside * reach);
-    pen.line(at - foot, at - aside * reach);
+    side(at, aside, reach * longer);
+    side(at, -aside, reach * longer);
   };
   tick(0.0, kLongTick);
   tick(whole, kLongTick);
-  for (double k = 1.0; k * ruler.step < whole - 1e-6 * ruler.step && k <= kMostTicks; k += 1.0)
+  // None that would lie on the one at the end.
+  const double last = whole - std::max(ruler.width, 1e-6 * ruler.step) * (1.0 - 1e-9);
+  for (double k = 1.0; k * ruler.step < last && k <= kMostTicks; k += 1.0)
     tick(k * ruler.step, std::fmod(k, 5.0) == 0.0 ? kLongTick : kTick);
   if (!ruler.unit.empty()) rulerLength(picture, ruler, {*from, *to}, now);
 }
@@ -350,7 +363,7 @@ void OverlayPainter::rulerLength(Picture& picture, const RulerOverlay& ruler, co
   look.anchor = NinePosition::Center;
   const Viewport& camera = now.painter.viewport();
   const Viewport& frame = now.texts.viewport();
-  const double ticks = kLongTick * (camera.scale / frame.scale);
+  const double ticks = kLongTick * std::max(ruler.width / kUsualRuler, 1.0) * (camera.scale / frame.scale);
   const double reach = 0.5 * beside.cwiseAbs().dot(now.texts.measure(text, look)); // of the box towards it
   const Vec2 middle = shownAt(0.5 * (ends[0] + ends[1]), frame, camera);
   now.texts.draw(picture, text, look, middle + beside * (ticks + 0.3 * ruler.labelSize + reach), 1.0, true);
