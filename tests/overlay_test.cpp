@@ -3,6 +3,7 @@
 #include "render/job/scene_source.h"
 #include "render/stage/game_object.h"
 #include "render/stage/stage_source.h"
+#include "tests/support/canvas_pictures.h"
 #include "tests/support/process.h"
 #include "tests/support/scene_text.h"
 #include "tests/support/temp_dir.h"
@@ -384,6 +385,76 @@ TEST(Overlay, ACamerasRulerHasItsLengthBesideItAtItsSize) {
           << ruler.to << " at " << zoom;
       EXPECT_NEAR(moved.high.x() - moved.low.x(), plain.high.x() - plain.low.x(), 2.0) << zoom;
       EXPECT_NEAR(moved.high.y() - moved.low.y(), plain.high.y() - plain.low.y(), 1.0) << zoom;
+    }
+  }
+}
+
+/// A ruler of 200 px around the frame's middle, `angle` from the x axis.
+struct Ruler {
+  Vec2 ahead;
+  Vec2 from;
+  std::string text; ///< its table without further keys
+  explicit Ruler(double angle)
+      : ahead(std::cos(angle), std::sin(angle)), from(Vec2(Vec2(320.0, 240.0) - 100.0 * ahead)) {
+    const Vec2 to = from + 200.0 * ahead;
+    text = fmt::format("duration = 1\n[[ruler]]\nfrom = [{:.17g}, {:.17g}]\nto = [{:.17g}, {:.17g}]\n",
+                       from.x(), from.y(), to.x(), to.y());
+  }
+  [[nodiscard]] Vec2 aside() const { return {-ahead.y(), ahead.x()}; }
+};
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+TEST(Overlay, ARulersLengthIsClearOfItsTicksAtEveryAngle) {
+  for (const double width : {2.0, 6.0}) {
+    for (int degrees = 0; degrees < 360; degrees += 5) {
+      const Ruler ruler(degrees * kDegree);
+      const std::string scene = ruler.text + "unit = \"px\"\nwidth = " + std::to_string(width) + "\n";
+      const double ticks = 9.0 * width / 2.0;
+      double nearest = 1e9;
+      for (const auto& [left, top, right, bottom] : lettersOf(scene))
+        for (const Vec2& corner :
+             {Vec2(left, top), Vec2(left, bottom), Vec2(right, top), Vec2(right, bottom)})
+          nearest = std::min(nearest, std::abs((corner - ruler.from).dot(ruler.aside())));
+      EXPECT_GE(nearest, ticks + 2.0) << degrees << " degrees, width " << width;
+      EXPECT_LE(nearest, ticks + 14.0) << degrees << " degrees, width " << width;
+    }
+  }
+}
+
+/// From a tick's tip over the line to its other tip there is ink, also where the two meet, and also at the
+/// ends.
+TEST(Overlay, RulersAndTheirTicksJoinWithoutGaps) {
+  for (const double width : {2.0, 4.0, 8.0}) {
+    for (const double alpha : {1.0, 0.5}) {
+      for (const double degrees : {0.0, 90.0, 17.0, 45.0, 63.0, 200.0}) {
+        const Ruler ruler(degrees * kDegree);
+        SceneSource source =
+            sourceOf(ruler.text + fmt::format("width = {}\nstep = 40\ncolor = \"#000000{:02x}\"\n", width,
+                                              static_cast<int>(alpha * 255.0)));
+        Picture picture;
+        source.draw(picture);
+        const Frame frame = drawOnce(picture);
+        for (const double at : {0.0, 40.0, 80.0, 200.0}) {
+          const double reach = (at == 0.0 || at == 200.0 ? 9.0 : 5.0) * std::max(width / 2.0, 1.0) - 1.5;
+          // Along the tick's middle, and near its outer side at an end.
+          const double outer = at == 0.0 ? 1.2 - 0.5 * width : at == 200.0 ? 0.5 * width - 1.2 : 0.0;
+          for (double across = -reach; across <= reach; across += 0.25) {
+            const Vec2 place =
+                ruler.from + (at + (width > 2.0 ? outer : 0.0)) * ruler.ahead + across * ruler.aside();
+            const int x = static_cast<int>(std::floor(place.x()));
+            const int y = static_cast<int>(std::floor(place.y()));
+            const Vec2 middle = Vec2(x + 0.5, y + 0.5) - ruler.from - at * ruler.ahead;
+            const double room = 0.5 * width - std::abs(middle.dot(ruler.ahead));
+            if (room < 0.71) continue; // at the tick's side
+            const double ink = 1.0 - pixel(frame, x, y).r / 255.0;
+            ASSERT_GT(ink, 0.92 * alpha) << "width " << width << ", " << degrees << " degrees, tick at " << at
+                                         << ", across " << across;
+            ASSERT_LT(ink, alpha + 0.14) << "width " << width << ", " << degrees << " degrees, tick at " << at
+                                         << ", across " << across;
+          }
+        }
+      }
     }
   }
 }

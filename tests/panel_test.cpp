@@ -54,6 +54,70 @@ TEST(Panels, PanesKeepTheirAspectInAnyGrid) {
   }
 }
 
+/// As in a grid, in the middle, wherever a picture of another aspect leaves room.
+TEST(Panels, OverlaidPanesKeepTheirAspectInAnyPicture) {
+  struct Case {
+    const char* size;
+    double scale; ///< of the pane's 200×100 px
+    Vec2 corner;  ///< px: the pane's upper left
+  };
+  for (const Case& each :
+       {Case{"[200, 100]", 1.0, {0, 0}}, Case{"[400, 200]", 2.0, {0, 0}}, Case{"[600, 200]", 2.0, {100, 0}},
+        Case{"[400, 500]", 2.0, {0, 150}}, Case{"[100, 100]", 0.5, {0, 25}}}) {
+    const Scene scene = sceneOf(kBall + "[[panel]]\n[[panel]]\ntitle = \"two\"\n[panels]\n" +
+                                "layout = \"overlaid\"\nsize = " + each.size + "\n");
+    SceneSource source(scene, Viewport::scaled(scene.size[0], scene.size[1], 1.0));
+    Picture picture;
+    source.draw(picture);
+    ASSERT_GE(picture.primitives.size(), 2U) << each.size;
+    const auto right = static_cast<int>(each.corner.x() + 200.0 * each.scale);
+    const auto bottom = static_cast<int>(each.corner.y() + 100.0 * each.scale);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Primitive& ball = picture.primitives[i];
+      EXPECT_EQ(ball.center, Vec2(each.corner + each.scale * Vec2(50, 20))) << each.size;
+      EXPECT_EQ(ball.outer, 10.0 * each.scale) << each.size;
+      EXPECT_EQ(
+          picture.clips.at(static_cast<std::size_t>(ball.clip)),
+          (PixelRect{static_cast<int>(each.corner.x()), static_cast<int>(each.corner.y()), right, bottom}))
+          << each.size;
+    }
+    for (const Primitive& letter : picture.primitives) { // the legend stands in the pane
+      if (letter.kind != Primitive::Kind::Mask) continue;
+      EXPECT_GE(letter.low.x(), each.corner.x()) << each.size;
+      EXPECT_GE(letter.low.y(), each.corner.y()) << each.size;
+      EXPECT_LE(letter.high.x(), right) << each.size;
+      EXPECT_LE(letter.high.y(), bottom) << each.size;
+    }
+  }
+}
+
+/// Around panes that reach to the picture's edge it lies there, not beyond.
+TEST(Panels, FramesAreWholeWithoutAnyGap) {
+  for (const double scale : {1.0, 2.0}) {
+    for (const int gap : {0, 10}) {
+      const Scene scene = sceneOf("duration = 1\n[frame]\nsize = [200, 100]\n[[panel]]\n[[panel]]\n"
+                                  "[panels]\ncolumns = 1\ngap = " +
+                                  std::to_string(gap) + "\n");
+      SceneSource source(scene, Viewport::scaled(scene.size[0], scene.size[1], scale));
+      Picture picture;
+      source.draw(picture);
+      const Frame frame = drawOnce(picture);
+      const auto line = static_cast<int>(scale);
+      const int first = gap == 0 ? 0 : gap * line - line; // px: where the upper left pane's line begins
+      const Rgba8 none{255, 255, 255, 255};
+      for (int i = first; i < first + line; ++i) {
+        const int right = frame.width - 1 - i;
+        const int bottom = frame.height - 1 - i;
+        EXPECT_NE(pixel(frame, i, 50 * line), none) << "left, gap " << gap << ", scale " << scale;
+        EXPECT_NE(pixel(frame, right, 50 * line), none) << "right, gap " << gap << ", scale " << scale;
+        EXPECT_NE(pixel(frame, 100 * line, i), none) << "top, gap " << gap << ", scale " << scale;
+        EXPECT_NE(pixel(frame, 100 * line, bottom), none) << "bottom, gap " << gap << ", scale " << scale;
+      }
+      EXPECT_EQ(pixel(frame, first + line, 50 * line), none) << "gap " << gap << ", scale " << scale;
+    }
+  }
+}
+
 /// Each pane shows exactly what its world shows alone, and nothing of a neighbour.
 TEST(Panels, ShowTheirWorldsInStep) {
   const std::string half = "[[panel]]\n[[panel]]\nclock.fps = 10\n[panels]\ngap = 10\n";

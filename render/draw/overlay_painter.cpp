@@ -18,8 +18,9 @@ namespace {
 
 constexpr double kHeadPerWidth = 4.0; ///< an arrow's head in widths of its shaft
 constexpr double kLeastArrow = 1.0;   ///< px: a shorter one is not drawn
-constexpr double kTick = 5.0;         ///< px to either side of a ruler
+constexpr double kTick = 5.0;         ///< px to either side of a ruler of the usual width or a thinner one
 constexpr double kLongTick = 9.0;     ///< px: every fifth, and the ends
+constexpr double kUsualRuler = 2.0;   ///< px wide; of a wider one the ticks are longer in proportion
 constexpr double kMostTicks = 2000.0;
 constexpr double kRounding = 1e-9; ///< s: what is due at a moment up to rounding is due
 
@@ -327,34 +328,55 @@ void OverlayPainter::ruler(Picture& picture, const RulerOverlay& ruler, const No
   const double whole = length(*to - *from);
   const Vec2 ahead = (*to - *from) / whole;
   const Vec2 aside = Vec2(-ahead.y(), ahead.x()) * viewport.scale;
+  const double half = 0.5 * ruler.width;
+  const double longer = std::max(ruler.width / kUsualRuler, 1.0);
   Pen pen(picture, ruler.width * viewport.scale, bytes(ruler.color));
-  pen.line(toOutput(viewport, *from), toOutput(viewport, *to));
-  // Ticks stand on the line and not across it, where a translucent one would show twice.
+  // As far as the outer sides of the ticks at its ends.
+  pen.line(toOutput(viewport, *from - ahead * half), toOutput(viewport, *to + ahead * half));
+  // Ticks stand on the line and not across it, where a translucent one would show twice. Where an edge of the
+  // line lies within pixels, a tick begins half a pixel inside it: else both edges let the background
+  // through.
+  const auto side = [&](const Vec2& at, const Vec2& outward, double reach) {
+    const Vec2 foot = at + outward * half;
+    const int axis = std::abs(outward.x()) > std::abs(outward.y()) ? 0 : 1;
+    const bool onEdge = outward[1 - axis] == 0.0 && std::abs(foot[axis] - std::round(foot[axis])) < 1e-6;
+    pen.line(onEdge ? foot : Vec2(foot - outward * (0.5 / viewport.scale)), at + outward * reach);
+  };
   const auto tick = [&](double distance, double reach) {
     const Vec2 at = toOutput(viewport, *from + ahead * distance);
-    const Vec2 foot = aside * (0.5 * ruler.width);
-    pen.line(at + foot, at + aside * reach);
-    pen.line(at - foot, at - aside * reach);
+    side(at, aside, reach * longer);
+    side(at, -aside, reach * longer);
   };
   tick(0.0, kLongTick);
   tick(whole, kLongTick);
-  for (double k = 1.0; k * ruler.step < whole - 1e-6 * ruler.step && k <= kMostTicks; k += 1.0)
+  // None that would lie on the one at the end.
+  const double last = whole - std::max(ruler.width, 1e-6 * ruler.step) * (1.0 - 1e-9);
+  for (double k = 1.0; k * ruler.step < last && k <= kMostTicks; k += 1.0)
     tick(k * ruler.step, std::fmod(k, 5.0) == 0.0 ? kLongTick : kTick);
-  if (ruler.unit.empty()) return;
+  if (!ruler.unit.empty()) rulerLength(picture, ruler, {*from, *to}, now);
+}
+
+/// Beside the ruler's middle, above it or, where it is steep, to the right: so far away that the text's box
+/// is clear of the ticks. A camera makes the ticks longer, and not the text.
+void OverlayPainter::rulerLength(Picture& picture, const RulerOverlay& ruler, const std::array<Vec2, 2>& ends,
+                                 const Now& now) const {
+  const double whole = length(ends[1] - ends[0]);
+  const Vec2 ahead = (ends[1] - ends[0]) / whole;
   const double unit = overlays_.units.pixels;
   const std::string text = fmt::format("{} {}", tickLabel(whole / unit, unit > 1.0 ? 0.01 : 1.0), ruler.unit);
-  // Beside the middle, on the side that is to the right or above.
   Vec2 beside(-ahead.y(), ahead.x());
-  if (beside.x() < -1e-9 || (std::abs(beside.x()) <= 1e-9 && beside.y() > 0.0)) beside = -beside;
+  const bool steep = std::abs(beside.x()) > 0.5; // by more than 30°
+  if (steep ? beside.x() < 0.0 : beside.y() > 0.0) beside = -beside;
   TextLook look;
   look.size = ruler.labelSize;
   look.color = ruler.color;
-  look.anchor = std::abs(beside.x()) > 0.5 ? NinePosition::Left : NinePosition::Bottom;
-  // A camera makes the ticks longer, and not the text.
+  look.anchor = NinePosition::Center;
+  const Viewport& camera = now.painter.viewport();
   const Viewport& frame = now.texts.viewport();
-  const double away = kLongTick * (viewport.scale / frame.scale) + 0.3 * ruler.labelSize;
-  const Vec2 middle = shownAt(*from + ahead * (0.5 * whole), frame, viewport);
-  now.texts.draw(picture, text, look, middle + beside * away, 1.0, true);
+  const double ticks = kLongTick * std::max(ruler.width / kUsualRuler, 1.0) * (camera.scale / frame.scale);
+  const double reach = 0.5 * beside.cwiseAbs().dot(now.texts.measure(text, look)); // of the box towards it
+  const Vec2 middle = shownAt(0.5 * (ends[0] + ends[1]), frame, camera);
+  now.texts.draw(picture, text, look, middle + beside * (ticks + 0.3 * ruler.labelSize + reach), 1.0, true);
 }
 
 } // namespace offstage

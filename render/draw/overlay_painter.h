@@ -7,6 +7,7 @@
 #include "src/sim/force_field.h"
 #include "src/sim/world_setup.h"
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -36,6 +37,8 @@ private:
   void arrows(Picture& picture, const ArrowOverlay& arrow, const Now& now) const;
   void contacts(Picture& picture, const ContactMarkOverlay& mark, const Now& now) const;
   void ruler(Picture& picture, const RulerOverlay& ruler, const Now& now) const;
+  void rulerLength(Picture& picture, const RulerOverlay& ruler, const std::array<Vec2, 2>& ends,
+                   const Now& now) const;
   [[nodiscard]] std::vector<Vec2> accelerations(std::span<const Body> bodies, double time) const;
 
   Overlays overlays_;

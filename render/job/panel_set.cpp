@@ -45,20 +45,22 @@ PanelSet::PanelSet(const Scene& scene, const Viewport& whole) : viewport_(whole)
   makeCaptions(scene);
   if (scene.panels.layout == Panels::Layout::Overlaid) return;
   frameWidth_ = std::max(std::round(whole.scale), 1.0);
+  // Outside of the pane, unless neighbours are so near that their lines would lie over each other.
+  if (scene.panels.gap * whole.scale < 2.0 * frameWidth_) frameInset_ = frameWidth_;
   const Color ink = inkOn(scene.background, 0.35);
   frameColor_ = {ink.red, ink.green, ink.blue, ink.alphaByte()};
 }
 
 PanelSet::~PanelSet() = default;
 
-/// A line around the pane, outside of it.
+/// A line around the pane.
 void PanelSet::frame(Picture& picture, const PixelRect& pane) const {
   if (!(frameWidth_ > 0.0)) return;
   Primitive line;
   line.kind = Primitive::Kind::BoxRing;
   line.color = frameColor_;
-  line.innerLow = Vec2(pane.left, pane.top);
-  line.innerHigh = Vec2(pane.right, pane.bottom);
+  line.innerLow = Vec2(pane.left, pane.top) + Vec2::Constant(frameInset_);
+  line.innerHigh = Vec2(pane.right, pane.bottom) - Vec2::Constant(frameInset_);
   line.low = line.innerLow - Vec2::Constant(frameWidth_);
   line.high = line.innerHigh + Vec2::Constant(frameWidth_);
   picture.primitives.push_back(line);
@@ -79,7 +81,11 @@ void PanelSet::makeCaptions(const Scene& scene) {
     caption.look.color = inkOn(scene.background);
     caption.look.anchor = overlaid ? NinePosition::Left : NinePosition::Center;
     const auto place = panels.place(i, scene.size[0], scene.size[1]);
-    if (!overlaid) caption.at = Vec2(place[0] + 0.5 * place[2], place[1] - 0.5 * line);
+    if (overlaid) {
+      caption.at += Vec2(place[0], place[1]);
+    } else {
+      caption.at = Vec2(place[0] + 0.5 * place[2], place[1] - 0.5 * line);
+    }
     texts_.require(caption.look, caption.text);
     FittedText fitted = fitText(texts_, caption.text, caption.look, overlaid ? place[2] - line : place[2],
                                 kLeastShare * caption.look.size, caption.dot ? 3.0 * kDotRadius : 0.0);

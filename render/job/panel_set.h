@@ -45,6 +45,7 @@ private:
 
   std::vector<std::unique_ptr<SceneSource>> worlds_;
   double frameWidth_ = 0.0; ///< px: of the line around each pane; 0: none
+  double frameInset_ = 0.0; ///< output px of it that lie on the pane
   Rgba8 frameColor_;
   struct Caption {
     std::string text;

@@ -125,7 +125,7 @@ struct RulerOverlay {
   Anchor from{};
   Anchor to{};
   double step = 1.0;       ///< px, > 0: between ticks; every fifth is longer
-  double width = 2.0;      ///< px
+  double width = 2.0;      ///< px; the ticks of a wider one are longer in proportion
   Color color{};           ///< default: ink
   std::string unit{};      ///< written behind the length beside the ruler; empty: the length is not shown
   double labelSize = 16.0; ///< px

@@ -3,6 +3,17 @@
 #include <algorithm>
 
 namespace offstage {
+namespace {
+
+/// The pane as large as fits into a room of left, top, width, height, and in its middle.
+std::array<double, 4> fitted(const std::array<double, 2>& pane, const std::array<double, 4>& room) {
+  const double scale = std::min(room[2] / pane[0], room[3] / pane[1]);
+  const double width = scale * pane[0];
+  const double height = scale * pane[1];
+  return {room[0] + 0.5 * (room[2] - width), room[1] + 0.5 * (room[3] - height), width, height};
+}
+
+} // namespace
 
 int Panels::rows() const {
   return (static_cast<int>(panels.size()) + columns - 1) / columns;
@@ -14,18 +25,14 @@ std::array<double, 2> Panels::naturalSize() const {
 }
 
 std::array<double, 4> Panels::place(std::size_t index, double width, double height) const {
-  if (layout == Layout::Overlaid) return {0.0, 0.0, width, height};
+  if (layout == Layout::Overlaid) return fitted(pane, {0.0, 0.0, width, height});
   const int column = static_cast<int>(index) % columns;
   const int row = static_cast<int>(index) / columns;
   const double cellWidth = (width - (columns + 1) * gap) / columns;
   const double cellHeight = (height - (rows() + 1) * gap) / rows();
   const double left = gap + column * (cellWidth + gap);
   const double top = gap + row * (cellHeight + gap) + caption;
-  const double scale = std::min(cellWidth / pane[0], (cellHeight - caption) / pane[1]);
-  const double paneWidth = scale * pane[0];
-  const double paneHeight = scale * pane[1];
-  return {left + 0.5 * (cellWidth - paneWidth), top + 0.5 * (cellHeight - caption - paneHeight), paneWidth,
-          paneHeight};
+  return fitted(pane, {left, top, cellWidth, cellHeight - caption});
 }
 
 std::optional<std::array<double, 4>> Panels::freeCells(double width, double height) const {

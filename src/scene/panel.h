@@ -43,7 +43,7 @@ struct Panels {
   std::vector<PanelPlot> plots{};       ///< over the whole picture
 
   /// Where pane number `index` lies: left, top, width, height in px of a picture of width × height px. It
-  /// keeps its aspect and is centred in its cell, below its caption.
+  /// keeps its aspect and is centred in its cell, below its caption; overlaid, in the whole picture.
   [[nodiscard]] std::array<double, 4> place(std::size_t index, double width, double height) const;
   /// The cells that the last row of a grid leaves free: left, top, width, height in px of such a picture.
   /// Nothing when it leaves none.
