@@ -248,8 +248,8 @@ void OverlayPainter::trail(Picture& picture, const TrailOverlay& trail, const No
     for (auto place = first; place != places.end() && place->time <= now.time; ++place) add(*place);
     OverlayHistory::Place last = track.head;
     if (last.time > now.time) { // between two frames, of which the history knows both
-      const auto body = std::ranges::find(now.bodies, id, &Body::id);
-      if (body == now.bodies.end()) continue;
+      const auto body = std::ranges::lower_bound(now.bodies, id, {}, &Body::id); // in order of creation
+      if (body == now.bodies.end() || body->id != id) continue;
       last = {now.time, middleOf(*body)};
     }
     if (last.time > begin) add(last);
