@@ -33,7 +33,7 @@ void DrawQueue::fillBuffer() {
   batches_.clear();
   for (const BatchPlanner::Batch& planned : planner_.plan(programs_, instances_)) {
     const std::size_t first = buffer_.size();
-    for (const std::uint32_t i : planned.members) buffer_.add(instances_[i]);
+    for (const std::uint32_t i : order_.sorted(planned.members, instances_)) buffer_.add(instances_[i]);
     batches_.push_back({planned.program, first, planned.members.size()});
     buffer_.fillVector();
   }

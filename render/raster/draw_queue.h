@@ -4,6 +4,7 @@
 #include "render/raster/instance_buffer.h"
 #include "render/raster/pattern_texture.h"
 #include "render/raster/shaders.h"
+#include "render/raster/tile_order.h"
 
 #include <vector>
 
@@ -15,7 +16,7 @@ class DrawQueue {
 public:
   /// width, height: of the framebuffer in px.
   DrawQueue(const GlFunctions& gl, int width, int height)
-      : gl_(gl), buffer_(gl), shaders_(gl, width, height), planner_(width, height) {}
+      : gl_(gl), buffer_(gl), shaders_(gl, width, height), planner_(width, height), order_(width, height) {}
 
   void clear();
   void add(const ProgramKind& program, const Instance& instance);
@@ -39,6 +40,7 @@ private:
   InstanceBuffer buffer_;
   Shaders shaders_;
   BatchPlanner planner_;
+  TileOrder order_;
   std::vector<Batch> batches_;
 };
 
