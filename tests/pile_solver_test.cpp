@@ -183,6 +183,41 @@ TEST(PileSolver, BallBouncesToTheRestitutionsSquareOfItsHeight) {
   EXPECT_NEAR(470.0 - highest, 0.64 * 400.0, 0.06 * 256.0);
 }
 
+TEST(PileSolver, ReboundsRubAsTheLawOfImpactHasIt) {
+  // Along the contact at most the friction times what the speed across changes by, rebound and all; with 3.0
+  // the bodies stick.
+  for (const double e : {0.0, 0.5, 1.0}) {
+    for (const double friction : {0.0, 0.2, 3.0}) {
+      WorldSetup setup = solverSetup(Vec2::Zero());
+      setup.contacts[0].restitution = e;
+      setup.bodies = {circle(300, 200, 10, Vec2(120, 90), 2.0), circle(330, 205, 10, Vec2(-60, 0), 1.0)};
+      for (Body& body : setup.bodies) body.friction = friction;
+      const Contact contact{Vec2(1, 0), 20.0, 20.0};
+      std::vector<Body> expected = setup.bodies;
+      respond(setup.contacts[0], contact, expected[0], expected[1]);
+      // They come to touch side by side, 10 px at 180 px/s further.
+      World world(setup);
+      run(world, 6);
+      for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_LT(length(world.bodies()[i].velocity - expected[i].velocity), 30.0)
+            << "body " << i << ", restitution " << e << ", friction " << friction << ": "
+            << world.bodies()[i].velocity.transpose() << " instead of " << expected[i].velocity.transpose();
+      }
+
+      WorldSetup atWall = solverSetup(Vec2::Zero());
+      atWall.walls.restitution[3] = e;
+      atWall.bodies = {circle(320, 465, 10, Vec2(100, 100), 2.0)};
+      atWall.bodies[0].friction = friction;
+      World room(atWall);
+      run(room, 30);
+      const Vec2 after(std::max(100.0 - friction * (1.0 + e) * 100.0, 0.0), -e * 100.0);
+      EXPECT_LT(length(room.bodies()[0].velocity - after), 1e-6)
+          << "restitution " << e << ", friction " << friction << ": " << room.bodies()[0].velocity.transpose()
+          << " instead of " << after.transpose();
+    }
+  }
+}
+
 TEST(PileSolver, FrictionStopsASliderAfterItsWay) {
   // v²/(2·f·g), with the geometric mean of 0.9 and 0.4 against the block, and the body's own at the wall.
   for (const bool onBlock : {true, false}) {

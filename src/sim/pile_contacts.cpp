@@ -39,7 +39,8 @@ PileContacts::PileContacts(const WorldSetup& setup, const RuleTable& rules)
     friction_.add({place, material.friction, rubbing, body, other});
   }
   if (material.counts) {
-    impacts_.add({place, before == nullptr, false, closing, material.restitution, material.p, body, other});
+    impacts_.add({place, before == nullptr, false, closing, material.restitution, material.friction,
+                  material.p, body, other});
   }
 }
 

@@ -16,11 +16,8 @@ void PileFriction::warmStart(const ContactBlocks& blocks, std::span<SlotState> s
 void PileFriction::sweep(const ContactBlocks& blocks, std::span<SlotState> states) {
   for (Rubbing& rubbing : rubbings_) {
     const PileContact c = blocks.contact(rubbing.place);
-    const SlotState& a = states[c.a];
-    const SlotState& b = states[c.b];
-    const double slip = (b.vy - a.vy) * c.nx - (b.vx - a.vx) * c.ny; // along (−ny, nx)
     const double most = rubbing.friction * c.impulse;
-    const double impulse = std::clamp(rubbing.impulse - slip, -most, most);
+    const double impulse = std::clamp(rubbing.impulse - slipOf(c, states), -most, most);
     pushApart(c, -c.ny, c.nx, impulse - rubbing.impulse, states);
     rubbing.impulse = impulse;
   }

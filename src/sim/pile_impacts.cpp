@@ -19,6 +19,12 @@ void pushApart(const PileContact& contact, double x, double y, double speed, std
   b.vy += ofB * y;
 }
 
+double slipOf(const PileContact& contact, std::span<const SlotState> states) {
+  const SlotState& a = states[contact.a];
+  const SlotState& b = states[contact.b];
+  return (b.vy - a.vy) * contact.nx - (b.vx - a.vx) * contact.ny;
+}
+
 Event wallEvent(const Event& stamp, std::uint32_t side, std::uint32_t id, double p, double q) {
   static constexpr std::array<EventKind, 4> kKinds{EventKind::Left, EventKind::Right, EventKind::Top,
                                                    EventKind::Bottom};
@@ -42,7 +48,13 @@ void PileImpacts::restitute(ContactBlocks& blocks, std::span<SlotState> states) 
     const SlotState& b = states[c.b];
     const double parting = (b.vx - a.vx) * c.nx + (b.vy - a.vy) * c.ny;
     const double missing = impact.restitution * impact.closing - parting;
-    if (missing > 0.0) pushApart(c, c.nx, c.ny, missing, states);
+    if (missing > 0.0) {
+      pushApart(c, c.nx, c.ny, missing, states);
+      if (impact.friction > 0.0) { // Coulomb's law holds for this impulse as for those of the sweeps
+        const double most = impact.friction * missing;
+        pushApart(c, -c.ny, c.nx, std::clamp(-slipOf(c, states), -most, most), states);
+      }
+    }
     blocks.setImpulse(impact.place, 0.0);
   }
 }
