@@ -2,6 +2,7 @@
 // gives the same.
 
 #include "render/draw/camera.h"
+#include "render/draw/image.h"
 #include "tests/support/process.h"
 #include "tests/support/temp_dir.h"
 
@@ -161,6 +162,23 @@ TEST(Timeline, TextsComeAndGoByTheVideosTimeWhileThePictureStands) {
   EXPECT_NE(without, with);
   EXPECT_EQ(readFile(dir / "f/23.png"), with);
   EXPECT_EQ(readFile(dir / "f/24.png"), without);
+}
+
+TEST(Timeline, ADimmingPauseLightsABodyWithWhatIsPaintedOverIt) {
+  const TempDir dir;
+  const std::string marks = "[[mark]]\nshape = \"dot\"\nsize = 8\ncolor = \"#ff0000\"\n";
+  const std::string pause = "[[pause]]\nat = 0\nfor = 1\nhighlight = [\"ball\"]\nstyle = \"dim\"\n";
+  const std::string scene = dir.write("scene.toml", kWorld + marks + pause).string();
+  ASSERT_EQ(offstage({"still", scene, "--at", "0.5", "-o", (dir / "x.png").string()}).status, 0);
+  const Image image = loadImage(dir / "x.png");
+  const auto red = [&image](std::size_t x, std::size_t y) {
+    const std::uint8_t* texel = &image.rgba[4 * (y * 160 + x)];
+    EXPECT_EQ(int{texel[1]}, 0);
+    EXPECT_EQ(int{texel[2]}, 0);
+    return int{texel[0]};
+  };
+  EXPECT_EQ(red(40, 15), 255) << "the mark of the body that is pointed at";
+  EXPECT_NEAR(red(120, 40), 255 * 0.45, 1.0) << "the mark of another";
 }
 
 TEST(Timeline, ATitleCardHidesTheScene) {

@@ -113,26 +113,37 @@ Vec2 toPane(const Viewport& viewport, const Vec2& p) {
 } // namespace
 
 void OverlayPainter::paint(Picture& picture, OverlayLayer layer, const Now& now) const {
-  const Viewport& viewport = now.painter.viewport();
-  const auto each = [&](const auto& list, auto draw) {
+  const auto each = [layer](const auto& list, auto draw) {
     for (const auto& overlay : list)
       if (overlay.layer == layer) draw(overlay);
-  };
-  const auto eachBody = [&](const auto& list, auto draw) {
-    each(list, [&](const auto& overlay) {
-      for (const Body& body : now.bodies)
-        if (overlay.of.holds(body)) draw(picture, overlay, body, viewport);
-    });
   };
   each(overlays_.grids, [&](const GridOverlay& overlay) { grid(picture, overlay, now); });
   each(overlays_.trails, [&](const TrailOverlay& overlay) { trail(picture, overlay, now); });
   for (std::size_t i = 0; i < overlays_.ghosts.size(); ++i)
     if (overlays_.ghosts[i].layer == layer) ghosts(picture, i, now);
-  eachBody(overlays_.outlines, drawOutline);
-  eachBody(overlays_.marks, drawMark);
-  each(overlays_.arrows, [&](const ArrowOverlay& overlay) { arrows(picture, overlay, now); });
+  ofBodies(picture, layer, now, [](const Body&) { return true; });
   each(overlays_.contactMarks, [&](const ContactMarkOverlay& overlay) { contacts(picture, overlay, now); });
   each(overlays_.rulers, [&](const RulerOverlay& overlay) { ruler(picture, overlay, now); });
+}
+
+void OverlayPainter::paintOf(Picture& picture, std::span<const std::uint32_t> ids, const Now& now) const {
+  ofBodies(picture, OverlayLayer::Front, now,
+           [ids](const Body& body) { return std::ranges::count(ids, body.id) > 0; });
+}
+
+void OverlayPainter::ofBodies(Picture& picture, OverlayLayer layer, const Now& now,
+                              const Chosen& chosen) const {
+  const auto eachBody = [&](const auto& list, auto draw) {
+    for (const auto& overlay : list) {
+      if (overlay.layer != layer) continue;
+      for (const Body& body : now.bodies)
+        if (overlay.of.holds(body) && chosen(body)) draw(picture, overlay, body, now.painter.viewport());
+    }
+  };
+  eachBody(overlays_.outlines, drawOutline);
+  eachBody(overlays_.marks, drawMark);
+  for (const ArrowOverlay& arrow : overlays_.arrows)
+    if (arrow.layer == layer) arrows(picture, arrow, now, chosen);
 }
 
 void OverlayPainter::grid(Picture& picture, const GridOverlay& grid, const Now& now) const {
@@ -281,7 +292,8 @@ std::vector<Vec2> OverlayPainter::accelerations(std::span<const Body> bodies, do
   return result;
 }
 
-void OverlayPainter::arrows(Picture& picture, const ArrowOverlay& arrow, const Now& now) const {
+void OverlayPainter::arrows(Picture& picture, const ArrowOverlay& arrow, const Now& now,
+                            const Chosen& chosen) const {
   const Viewport& viewport = now.painter.viewport();
   const Color color = arrow.color.value_or(arrowColor(arrow.quantity));
   Pen pen(picture, arrow.width * viewport.scale, bytes(color, arrow.opacity));
@@ -289,7 +301,7 @@ void OverlayPainter::arrows(Picture& picture, const ArrowOverlay& arrow, const N
   if (arrow.quantity != ArrowQuantity::Velocity) accelerated = accelerations(now.bodies, now.time);
   for (std::size_t i = 0; i < now.bodies.size(); ++i) {
     const Body& body = now.bodies[i];
-    if (body.fixed || !arrow.of.holds(body)) continue;
+    if (body.fixed || !arrow.of.holds(body) || !chosen(body)) continue;
     Vec2 value = body.velocity;
     if (arrow.quantity == ArrowQuantity::Acceleration) value = accelerated[i];
     if (arrow.quantity == ArrowQuantity::Force) value = accelerated[i] * body.mass;

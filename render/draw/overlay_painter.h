@@ -8,6 +8,8 @@
 #include "src/sim/world_setup.h"
 
 #include <array>
+#include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -28,13 +30,17 @@ public:
     const TextPainter& texts; ///< of the viewport without a camera: numbers keep their size
   };
   void paint(Picture& picture, OverlayLayer layer, const Now& now) const;
+  /// Only the front layer's outlines, marks and arrows of the bodies with these ids.
+  void paintOf(Picture& picture, std::span<const std::uint32_t> ids, const Now& now) const;
 
 private:
+  using Chosen = std::function<bool(const Body&)>;
+  void ofBodies(Picture& picture, OverlayLayer layer, const Now& now, const Chosen& chosen) const;
   void grid(Picture& picture, const GridOverlay& grid, const Now& now) const;
   void gridLabels(Picture& picture, const GridOverlay& grid, const Now& now) const;
   void trail(Picture& picture, const TrailOverlay& trail, const Now& now) const;
   void ghosts(Picture& picture, std::size_t index, const Now& now) const;
-  void arrows(Picture& picture, const ArrowOverlay& arrow, const Now& now) const;
+  void arrows(Picture& picture, const ArrowOverlay& arrow, const Now& now, const Chosen& chosen) const;
   void contacts(Picture& picture, const ContactMarkOverlay& mark, const Now& now) const;
   void ruler(Picture& picture, const RulerOverlay& ruler, const Now& now) const;
   void rulerLength(Picture& picture, const RulerOverlay& ruler, const std::array<Vec2, 2>& ends,

@@ -45,6 +45,10 @@ Vec2 centerOf(const Body& body) {
   return body.shape == Shape::Circle ? body.position : Vec2(body.position + body.size * 0.5);
 }
 
+bool isOneOf(const Body& body, const std::vector<std::uint32_t>& ids) {
+  return std::ranges::count(ids, body.id) > 0;
+}
+
 Rgba8 veilOf(const Color& color, double opacity) {
   return {color.red, color.green, color.blue, color.alphaByte(opacity)};
 }
@@ -208,10 +212,13 @@ void SceneSource::paint(Picture& picture) const {
     texts_.draw(picture, now, videoTime(), painter_.viewport());
     return;
   }
+  const Film::Freeze* freeze = presentFreeze();
   const OverlayPainter::Now overlaid{now.time, now.bodies, history_, painter_, textPainter_};
   overlays_.paint(picture, OverlayLayer::Behind, overlaid);
-  drawBodies(picture);
+  drawBodies(picture, freeze);
   overlays_.paint(picture, OverlayLayer::Front, overlaid);
+  if (freeze != nullptr && pauseOf(*freeze).highlight == Highlight::Dim)
+    drawOverVeil(picture, *freeze, overlaid);
   plots_.draw(picture, {&now.frame, 1});
   texts_.draw(picture, now, videoTime(), painter_.viewport());
 }
@@ -226,34 +233,44 @@ void SceneSource::keepMoment() {
   }
 }
 
-void SceneSource::drawBodies(Picture& picture) const {
+const Film::Freeze* SceneSource::presentFreeze() const {
   const double now = videoTime();
-  const std::span<const Body> drawn = kept_.empty() ? shownBodies() : std::span<const Body>(kept_);
-  const auto freeze = std::ranges::find_if(film_.freezes, [now](const Film::Freeze& candidate) {
-    return candidate.from <= now && now < candidate.to;
-  });
-  if (freeze == film_.freezes.end()) {
-    for (const Body& body : drawn) painter_.body(picture, body, body.look);
-    return;
+  const auto freeze = std::ranges::find_if(
+      film_.freezes, [now](const Film::Freeze& some) { return some.from <= now && now < some.to; });
+  return freeze == film_.freezes.end() ? nullptr : &*freeze;
+}
+
+const Pause& SceneSource::pauseOf(const Film::Freeze& freeze) const {
+  return timeline_.pauses[freeze.pause];
+}
+
+std::span<const Body> SceneSource::drawnBodies() const {
+  return kept_.empty() ? shownBodies() : std::span<const Body>(kept_);
+}
+
+void SceneSource::drawBodies(Picture& picture, const Film::Freeze* freeze) const {
+  const Pause* pause = freeze == nullptr ? nullptr : &pauseOf(*freeze);
+  const bool dim = pause != nullptr && pause->highlight == Highlight::Dim;
+  for (const Body& body : drawnBodies())
+    if (!dim || !isOneOf(body, pause->bodies)) painter_.body(picture, body, body.look);
+  if (pause == nullptr || dim) return;
+  for (const Body& body : drawnBodies()) {
+    if (!isOneOf(body, pause->bodies)) continue;
+    const double radius = body.shape == Shape::Circle ? body.radius : body.size.norm() * 0.5;
+    painter_.circle(picture, centerOf(body), radius + ringWidth_,
+                    ringLook_ + static_cast<std::uint32_t>(freeze->pause));
   }
-  const Pause& pause = timeline_.pauses[freeze->pause];
-  const auto isMeant = [&pause](const Body& body) { return std::ranges::count(pause.bodies, body.id) > 0; };
-  const bool dim = pause.highlight == Highlight::Dim;
-  for (const Body& body : drawn)
-    if (!dim || !isMeant(body)) painter_.body(picture, body, body.look);
-  if (dim)
-    painter_.veil(picture,
-                  veilOf(Color{}, kDimmed * presence(now, freeze->from, freeze->to, kHighlightFade)));
-  for (const Body& body : drawn) {
-    if (!isMeant(body)) continue;
-    if (dim) {
-      painter_.body(picture, body, body.look);
-    } else {
-      const double radius = body.shape == Shape::Circle ? body.radius : body.size.norm() * 0.5;
-      painter_.circle(picture, centerOf(body), radius + ringWidth_,
-                      ringLook_ + static_cast<std::uint32_t>(freeze->pause));
-    }
-  }
+}
+
+/// Darkens all that is painted, and paints what is pointed at over it, with what lies over it.
+void SceneSource::drawOverVeil(Picture& picture, const Film::Freeze& freeze,
+                               const OverlayPainter::Now& overlaid) const {
+  painter_.veil(picture,
+                veilOf(Color{}, kDimmed * presence(videoTime(), freeze.from, freeze.to, kHighlightFade)));
+  const std::vector<std::uint32_t>& meant = pauseOf(freeze).bodies;
+  for (const Body& body : drawnBodies())
+    if (isOneOf(body, meant)) painter_.body(picture, body, body.look);
+  if (!meant.empty()) overlays_.paintOf(picture, meant, overlaid);
 }
 
 void SceneSource::drawCard(Picture& picture) const {

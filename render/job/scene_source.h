@@ -79,7 +79,12 @@ private:
   [[nodiscard]] std::span<const Body> frameBodies() const;
   /// s of the video: of the last show(); before the first one it is the simulated time.
   [[nodiscard]] double videoTime() const;
-  void drawBodies(Picture& picture) const;
+  /// The pause that points at bodies now, or null.
+  [[nodiscard]] const Film::Freeze* presentFreeze() const;
+  [[nodiscard]] const Pause& pauseOf(const Film::Freeze& freeze) const;
+  [[nodiscard]] std::span<const Body> drawnBodies() const;
+  void drawBodies(Picture& picture, const Film::Freeze* freeze) const;
+  void drawOverVeil(Picture& picture, const Film::Freeze& freeze, const OverlayPainter::Now& overlaid) const;
   void drawCard(Picture& picture) const;
   void drawFade(Picture& picture) const;
 
