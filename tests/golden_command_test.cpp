@@ -228,10 +228,22 @@ TEST(GoldenCommand, WithoutAVerdictTheJunitFileHoldsTheError) {
               AllOf(HasSubstr("tests=\"1\" failures=\"0\" errors=\"1\""),
                     HasSubstr("name=\"offstage golden verify .\""), HasSubstr("<error message="),
                     HasSubstr("cannot be read")));
-  // What is no such report stays.
-  const std::string scene = readFile(folder.dir() / "fall.toml");
-  EXPECT_EQ(folder.golden({"verify", ".", "--junit", "fall.toml"}).status, 2);
-  EXPECT_EQ(readFile(folder.dir() / "fall.toml"), scene);
+}
+
+TEST(GoldenCommand, AReportReplacesOnlyAReport) {
+  const GoldenFolder folder;
+  folder.writeScene("fall", "red", 40);
+  ASSERT_EQ(folder.golden({"record", "goldens", "--scenes", "."}).status, 0);
+  for (const std::string file :
+       {"fall.toml", "goldens/fall@0s.png", "goldens/fall.states.csv", "goldens/goldens.lock"}) {
+    const std::string before = readFile(folder.dir() / file);
+    const ProcessResult verified = folder.golden({"verify", "goldens", "--scenes", ".", "--junit", file});
+    EXPECT_EQ(verified.status, 2) << file;
+    EXPECT_THAT(verified.err, AllOf(HasSubstr("--junit"), HasSubstr(file)));
+    EXPECT_TRUE(readFile(folder.dir() / file) == before) << file << " is not what it was";
+  }
+  for (int i = 0; i < 2; ++i)
+    EXPECT_EQ(folder.golden({"verify", "goldens", "--scenes", ".", "--junit", "goldens/j.xml"}).status, 0);
 }
 
 TEST(GoldenCommand, SaysTheToleranceThatWasInForce) {

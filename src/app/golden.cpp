@@ -1,6 +1,7 @@
 #include "render/compare/golden_output.h"
 #include "render/job/command_line.h"
 #include "render/job/golden_job.h"
+#include "render/job/output_places.h"
 #include "src/app/commands.h"
 #include "src/app/junit_option.h"
 #include "src/sim/error.h"
@@ -8,6 +9,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -55,7 +57,20 @@ int record(const Arguments& arguments) {
   return static_cast<int>(recording.differing.empty() ? ExitCode::Done : ExitCode::Differs);
 }
 
+/// Throws Error(BadInput) when the report would replace a file of the folders; an older report it may.
+void requireApartFromFolders(const Arguments& arguments) {
+  if (arguments.junit.empty()) return;
+  const GoldenFolders folders = arguments.folders();
+  for (const std::filesystem::path& folder : {folders.goldens, folders.scenes}) {
+    std::error_code unreadable; // said by what reads it
+    for (const auto& entry : std::filesystem::directory_iterator(folder, unreadable))
+      if (entry.path().extension() != ".xml")
+        requireApart({"--junit", arguments.junit}, "a file of the goldens or scenes,", entry.path());
+  }
+}
+
 int verify(const Arguments& arguments) {
+  requireApartFromFolders(arguments);
   const Report report =
       withJunit(arguments.junit, "offstage.golden", "offstage golden verify " + arguments.goldens.string(),
                 [&] { return verifyGoldens(arguments.folders(), arguments.mode()); });
