@@ -32,7 +32,7 @@ bool FrameDecoder::decode(const AVPacket* packet) {
     if (frame_->decode_error_flags != 0 || (frame_->flags & AV_FRAME_FLAG_CORRUPT) != 0)
       fail_("a frame is damaged");
     any = true;
-    if (first_ == AV_NOPTS_VALUE) first_ = frame_->pts;
+    if (first_ == AV_NOPTS_VALUE || frame_->pts < first_) first_ = frame_->pts;
     last_ = std::max(last_, frame_->pts);
   }
 }

@@ -25,10 +25,8 @@ public:
   /// Whether a frame came out. A null packet asks for what the decoder still holds, and ends it.
   bool decode(const AVPacket* packet);
 
-  [[nodiscard]] std::int64_t first() const {
-    return first_;
-  }                                                         ///< pts of what came out first, or AV_NOPTS_VALUE
-  [[nodiscard]] std::int64_t last() const { return last_; } ///< the latest pts of all
+  [[nodiscard]] std::int64_t first() const { return first_; } ///< the earliest pts of all, or AV_NOPTS_VALUE
+  [[nodiscard]] std::int64_t last() const { return last_; }   ///< the latest one
   [[nodiscard]] const AVCodecContext& context() const { return *context_; } ///< what it found out
 
 private:

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <future>
 #include <string>
 #include <string_view>
 
@@ -38,7 +37,12 @@ class Verifier {
 public:
   Verifier(const std::filesystem::path& file, const ExpectedVideo& expected,
            const std::filesystem::path& name)
-      : expected_(expected), name_(name), packet_(libav::makePacket()), first_(libav::makePacket()) {
+      : expected_(expected),
+        name_(name),
+        failing_([this](std::string_view why) { fail(why); }),
+        packet_(libav::makePacket()),
+        first_(libav::makePacket()),
+        last_(libav::makePacket()) {
     check(libav::openInput(file, format_), "it cannot be opened again");
     // avformat_find_stream_info() would decode up to twenty frames to guess what the decoder tells us anyway.
     findStream();
@@ -46,15 +50,10 @@ public:
 
   void run() {
     readAll();
-    const FrameDecoder::Fail failing = [this](std::string_view why) { fail(why); };
-    FrameDecoder first(*stream_, failing);
-    // Beside each other, if the system allows a thread: at 1080p the frames to decode take up to a tenth of a
-    // second.
-    std::future<void> other =
-        std::async(std::launch::async | std::launch::deferred, [this, &failing] { decodeLast(failing); });
-    decodeFirst(first);
-    other.get();
-    compareStream(first.context());
+    if (!decodeEndsTogether()) {
+      decodeFirst();
+      decodeLast();
+    }
     if (!differences_.empty()) fail(differences_);
   }
 
@@ -135,18 +134,16 @@ private:
             fmt::format("{:.6f} s", static_cast<double>(wanted) * av_q2d(expected_.timeBase)));
   }
 
-  /// Every packet of the file; the first is kept.
+  /// Every packet of the file; the one of the first frame is kept, and that of the last.
   void readAll() {
     std::int64_t frames = 0;
     PacketHash packets;
-    while (readPacket()) {
-      ++frames;
+    for (; readPacket(); av_packet_unref(packet_.get())) {
       packets.addStored(*packet_);
-      lastStart_ = std::max(lastStart_, packet_->pts);
-      if (frames == 1)
-        av_packet_move_ref(first_.get(), packet_.get());
-      else
-        av_packet_unref(packet_.get());
+      if (++frames == 1) keep(first_);
+      if (packet_->pts <= lastStart_) continue;
+      lastStart_ = packet_->pts;
+      keep(last_);
     }
     compare("number of frames", frames, expected_.frames);
     if (frames == 0) fail("it has no frames");
@@ -156,40 +153,45 @@ private:
     compareTime("start of the last frame", lastStart_, stream_->time_base, expected_.lastStart);
   }
 
-  void decodeFirst(FrameDecoder& decoder) const {
+  void keep(libav::Packet& copy) {
+    av_packet_unref(copy.get());
+    check(av_packet_ref(copy.get(), packet_.get()), "a frame cannot be kept");
+  }
+
+  /// Whether the first and the last frame decode one after the other. Of H.264 they do: the decoder takes the
+  /// first for the references that are not there. That those are what was encoded is known from their hash;
+  /// to decode the last chunk of a film of thousands of bodies takes a quarter of a second.
+  bool decodeEndsTogether() {
+    if (stream_->codecpar->codec_id != AV_CODEC_ID_H264) return false;
+    FrameDecoder decoder(*stream_, failing_);
+    decoder.silence(); // it complains of what is not there
+    try {
+      decoder.decode(first_.get());
+      if (lastStart_ != first_->pts) decoder.decode(last_.get());
+      decoder.decode(nullptr);
+    } catch (const Error&) { // each for itself will tell
+      return false;
+    }
+    if (decoder.first() != first_->pts || decoder.last() != lastStart_) return false;
+    compareStream(decoder.context());
+    return true;
+  }
+
+  void decodeFirst() {
+    FrameDecoder decoder(*stream_, failing_);
     // Nothing behind it: a decoder of B-frames gives the first away only with later ones, which take time
     // too.
     const bool decoded = decoder.decode(first_.get()) || decoder.decode(nullptr);
     if (!decoded || decoder.first() != first_->pts) fail("its first frame does not decode");
+    compareStream(decoder.context());
   }
 
-  /// In a thread of its own: packet_ and format_ are only used here meanwhile. Of H.264 the last frame
-  /// decodes with the key frame alone, which the decoder takes for the references that are not there. That
-  /// those are what was encoded is known from their hash; to decode the last chunk of a film of thousands of
-  /// bodies takes a quarter of a second. Only if that fails, all is decoded that the last frame rests on.
-  void decodeLast(const FrameDecoder::Fail& failing) {
-    if (stream_->codecpar->codec_id == AV_CODEC_ID_H264) {
-      try {
-        FrameDecoder decoder(*stream_, failing);
-        decoder.silence(); // it complains of what is not there
-        return decodeLast(decoder, true);
-      } catch (const Error&) { // the whole will tell
-        av_packet_unref(packet_.get());
-      }
-    }
-    FrameDecoder decoder(*stream_, failing);
-    decodeLast(decoder, false);
-  }
-
-  void decodeLast(FrameDecoder& decoder, bool keyFrameAlone) {
+  /// With all that it rests on.
+  void decodeLast() {
+    FrameDecoder decoder(*stream_, failing_);
     check(av_seek_frame(format_.get(), stream_->index, lastStart_, AVSEEK_FLAG_BACKWARD),
           "its last frame is not found");
-    while (readPacket()) {
-      const bool wanted =
-          !keyFrameAlone || packet_->pts == lastStart_ || (packet_->flags & AV_PKT_FLAG_KEY) != 0;
-      if (wanted) decoder.decode(packet_.get());
-      av_packet_unref(packet_.get());
-    }
+    for (; readPacket(); av_packet_unref(packet_.get())) decoder.decode(packet_.get());
     decoder.decode(nullptr);
     if (decoder.last() != lastStart_) fail("its last frame does not decode");
   }
@@ -207,10 +209,11 @@ private:
 
   const ExpectedVideo& expected_;
   const std::filesystem::path& name_;
+  FrameDecoder::Fail failing_;
   libav::InputContext format_;
   AVStream* stream_ = nullptr;
   libav::Packet packet_;
-  libav::Packet first_;
+  libav::Packet first_, last_;
   std::int64_t lastStart_ = AV_NOPTS_VALUE;
   std::string differences_;
 };
