@@ -39,10 +39,6 @@ PlotSet::PlotSet(const Scene& scene, const Viewport& viewport, const TextPainter
   for (const Plot& plot : scene.plots)
     runs.plots.push_back({plot, std::vector<std::size_t>(plot.curves.size(), 0)});
   if (runs.plots.empty()) return;
-  for (const PanelPlot& each : runs.plots) {
-    texts_.require({}, each.plot.title + each.plot.x.label + each.plot.y.label);
-    for (const PlotCurve& curve : each.plot.curves) texts_.require({}, curve.name);
-  }
   for (const Panel& panel : scene.panels.panels) runs.parts.push_back({runOf(*panel.scene), {}});
   if (runs.parts.empty()) runs.parts.push_back({runOf(scene), {}});
   for (std::size_t i = 0; i < runs.parts.size(); ++i) {

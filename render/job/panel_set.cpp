@@ -86,7 +86,6 @@ void PanelSet::makeCaptions(const Scene& scene) {
     } else {
       caption.at = Vec2(place[0] + 0.5 * place[2], place[1] - 0.5 * line);
     }
-    texts_.require(caption.look, caption.text);
     FittedText fitted = fitText(texts_, caption.text, caption.look, overlaid ? place[2] - line : place[2],
                                 kLeastShare * caption.look.size, caption.dot ? 3.0 * kDotRadius : 0.0);
     caption.text = std::move(fitted.text);

@@ -1,5 +1,6 @@
 #include "render/job/scene_source.h"
 
+#include "render/draw/scene_glyphs.h"
 #include "render/job/fingerprint.h"
 #include "render/job/scene_tracks.h"
 
@@ -86,6 +87,7 @@ SceneSource::SceneSource(const Scene& scene, const Viewport& viewport)
       camera_(film_.camera, Vec2(scene.size[0], scene.size[1])),
       ringWidth_(kRingWidth * scene.size[1]),
       fingerprint_(fingerprintOf(scene, film_)) {
+  requireGlyphs(scene, textPainter_);
   // The painter numbers looks as the scene does, so Body::look needs no translation.
   for (const Look& look : scene.looks) painter_.addLook(look);
   ringLook_ = static_cast<std::uint32_t>(scene.looks.size());

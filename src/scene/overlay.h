@@ -1,6 +1,7 @@
 #pragma once
 
 #include "src/scene/color.h"
+#include "src/scene/diagnostic.h"
 #include "src/sim/body.h"
 #include "src/sim/force.h"
 #include "src/sim/vec.h"
@@ -130,6 +131,7 @@ struct RulerOverlay {
   std::string unit{};      ///< written behind the length beside the ruler; empty: the length is not shown
   double labelSize = 16.0; ///< px
   OverlayLayer layer = OverlayLayer::Front;
+  SourceLocation where{}; ///< of its table, for messages; empty from C++
 };
 
 /// All that is drawn over and under a scene's bodies. It takes no part in the simulation.

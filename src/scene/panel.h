@@ -1,6 +1,7 @@
 #pragma once
 
 #include "src/scene/color.h"
+#include "src/scene/diagnostic.h"
 #include "src/scene/plot.h"
 
 #include <array>
@@ -20,6 +21,7 @@ struct Panel {
   std::string title{};                  ///< its caption; may be empty
   std::optional<Color> color{};         ///< of all its bodies, and of its caption
   std::shared_ptr<const Scene> scene{}; ///< with the changes; has no panels of its own
+  SourceLocation where{};               ///< of its table, for messages; empty from C++
 };
 
 /// `[[panels.plot]]`: values of several panels in one diagram.

@@ -95,10 +95,6 @@ void readEvent(SceneBuilder& builder, const TableReader& reader, std::string tex
 
 } // namespace
 
-SourceLocation locationOf(const SceneBuilder& builder, const TomlValue& value) {
-  return {builder.scene.file.string(), value.line, value.column};
-}
-
 std::optional<std::size_t> readSectionName(SceneBuilder& builder, const TableReader& reader) {
   const auto title = reader.givenString("section");
   if (!title) return std::nullopt;
@@ -119,7 +115,7 @@ void parseSection(SceneBuilder& builder, const TomlValue& table) {
   const TableReader reader(table, {"section"}, "[[section]]", builder.errors);
   std::vector<Section>& sections = builder.scene.timeline.sections;
   Section section;
-  section.where = locationOf(builder, table);
+  section.where = locationOf(builder.scene, table);
   if (!reader.has("title")) reader.require("title");
   section.title = textOr(readText(reader, "title", kMaxSectionBytes, false));
   section.start = reader.number("start", Range::between(0.0, kMaxDuration));
@@ -128,8 +124,8 @@ void parseSection(SceneBuilder& builder, const TomlValue& table) {
   if (reader.has("narration")) {
     const auto file = builder.readFile(reader, "narration");
     if (file)
-      section.narration =
-          SoundFile{*file, locationOf(builder, *reader.find("narration")), reader.described("narration")};
+      section.narration = SoundFile{*file, locationOf(builder.scene, *reader.find("narration")),
+                                    reader.described("narration")};
   }
   const auto twin = std::ranges::find_if(sections, [&](const Section& other) {
     return other.title == section.title || other.start == section.start;
@@ -161,7 +157,7 @@ void parseCaption(SceneBuilder& builder, const TomlValue& table) {
   for (const char* key : {"body", "limit"})
     if (reader.has(key)) reader.reject(key, "needs 'on' beside it");
   Caption caption;
-  caption.where = locationOf(builder, table);
+  caption.where = locationOf(builder.scene, table);
   caption.text = std::move(text);
   readTimes(builder, reader, caption);
   timeline.captions.push_back(std::move(caption));

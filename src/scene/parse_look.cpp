@@ -29,7 +29,7 @@ std::optional<ImagePattern> readPattern(SceneBuilder& builder, const TableReader
   if (!file) return std::nullopt;
   pattern.file = *file;
   const TomlValue& image = *reader.find("image");
-  pattern.where = {builder.scene.file.string(), image.line, image.column};
+  pattern.where = locationOf(builder.scene, image);
   return pattern;
 }
 

@@ -192,6 +192,7 @@ void readRuler(SceneBuilder& builder, const TableReader& reader) {
   ruler.unit = reader.givenString("unit").value_or("");
   ruler.labelSize = reader.number("label_size", kPixels);
   ruler.layer = reader.choice("layer", kLayers);
+  ruler.where = locationOf(builder.scene, reader.value());
   if (!from || !to) return;
   ruler.from = *from;
   ruler.to = *to;

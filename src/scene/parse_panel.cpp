@@ -178,6 +178,7 @@ void parsePanels(const TomlValue& root, const SceneOverrides& overrides, const S
     const TableReader reader(table, {"panel"}, "[[panel]]", errors);
     Panel panel;
     panel.title = reader.givenString("title").value_or("");
+    panel.where = locationOf(scene, table);
     if (reader.has("color")) panel.color = reader.color("color");
     if (errors.count() != before) continue;
     try {

@@ -161,6 +161,7 @@ Plot readPlot(const TableReader& reader, const Scene& scene, std::vector<NamedCu
                       reader.label(), numberText(plot.area[2]), numberText(plot.area[3])));
     }
   }
+  plot.where = locationOf(scene, reader.value());
   plot.title = reader.givenString("title").value_or("");
   plot.textSize = reader.givenNumber("text_size", Range::between(4.0, 1000.0))
                       .value_or(std::max(std::round(plot.area[3] / 16.0), 11.0));

@@ -106,7 +106,7 @@ bool readContent(SceneBuilder& builder, const TableReader& reader, TextItem& ite
     return false;
   }
   const TomlValue& content = formula != nullptr ? *formula : *text;
-  item.where = {builder.scene.file.string(), content.line, content.column};
+  item.where = locationOf(builder.scene, content);
   if (reader.rejectBoth("formula", "text")) return false;
   if (formula != nullptr) return readFormula(reader, item);
   auto read = readTemplate(builder, *text, reader.described("text"));
@@ -137,7 +137,7 @@ FontChoice readFont(SceneBuilder& builder, const TableReader& reader, std::strin
     return font;
   }
   const TomlValue& value = *reader.find(key);
-  font.where = {builder.scene.file.string(), value.line, value.column};
+  font.where = locationOf(builder.scene, value);
   font.file = builder.readFile(reader, key).value_or(std::filesystem::path());
   return font;
 }

@@ -94,7 +94,7 @@ void parseCamera(SceneBuilder& builder, const TomlValue& table) {
   const TableReader reader(table, {"camera"}, "[[camera]]", builder.errors);
   if (isTooMany(builder, table, builder.scene.timeline.camera, "[[camera]]")) return;
   CameraMove move;
-  move.where = locationOf(builder, table);
+  move.where = locationOf(builder.scene, table);
   move.at = reader.number("at", Range::between(0.0, kMaxDuration));
   move.length = reader.number("for", Range::between(0.0, kMaxPause));
   move.center.point = builder.scene.world.pane * 0.5;
@@ -113,7 +113,8 @@ void parseNarration(SceneBuilder& builder, const TomlValue& table) {
   if (!reader.has("file")) reader.require("file");
   const auto file = builder.readFile(reader, "file");
   if (!file) return;
-  timeline.narration = SoundFile{*file, locationOf(builder, *reader.find("file")), reader.described("file")};
+  timeline.narration =
+      SoundFile{*file, locationOf(builder.scene, *reader.find("file")), reader.described("file")};
   for (const Section& section : timeline.sections) {
     if (!section.narration) continue;
     builder.errors.add(table,
@@ -136,7 +137,7 @@ void parseSound(SceneBuilder& builder, const TomlValue& table) {
 void parsePoster(SceneBuilder& builder, const TomlValue& table) {
   const TableReader reader(table, {"poster"}, "[poster]", builder.errors);
   builder.scene.timeline.poster = reader.givenNumber("at", Range::between(0.0, kMaxDuration));
-  if (reader.has("at")) builder.scene.timeline.posterWhere = locationOf(builder, *reader.find("at"));
+  if (reader.has("at")) builder.scene.timeline.posterWhere = locationOf(builder.scene, *reader.find("at"));
 }
 
 /// Whether how long the video is depends on sound files, which are not opened here.

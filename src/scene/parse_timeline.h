@@ -15,9 +15,6 @@ void parseTimeline(SceneBuilder& builder, const TableReader& top, const SceneOve
 void parseSection(SceneBuilder& builder, const TomlValue& table);
 void parseCaption(SceneBuilder& builder, const TomlValue& table); ///< after the sections
 
-/// Where a value stands, for errors that are found after the scene is read.
-SourceLocation locationOf(const SceneBuilder& builder, const TomlValue& value);
-
 /// The section that a key `section` names, by its title; an unknown one is reported. Nothing without the key.
 std::optional<std::size_t> readSectionName(SceneBuilder& builder, const TableReader& reader);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "src/scene/color.h"
+#include "src/scene/diagnostic.h"
 #include "src/scene/overlay.h"
 #include "src/sim/probe.h"
 
@@ -44,6 +45,7 @@ struct Plot {
   Color ink{};        ///< of axes, numbers and titles
   Color gridColor{};
   Color background{};
+  SourceLocation where; ///< of its table, for messages; empty from C++
 };
 
 /// More frames than this are not plotted.

@@ -106,4 +106,9 @@ void parseText(SceneBuilder& builder, const TomlValue& table);
 /// tables. `startsAreKnown`: every body's numbers are right, so that its start can be judged too.
 void checkExactBodies(SceneBuilder& builder, bool startsAreKnown);
 
+/// Where a value stands, for errors that are found after the scene is read.
+inline SourceLocation locationOf(const Scene& scene, const TomlValue& value) {
+  return {scene.file.string(), value.line, value.column};
+}
+
 } // namespace offstage
