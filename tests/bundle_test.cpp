@@ -122,8 +122,7 @@ TEST(Bundle, OfATransparentSceneIsRefusedForWhatItIs) {
 TEST(Bundle, AnInterruptedOneLeavesNothingAndPromisesNothing) {
   const TempDir dir;
   const std::string scene = dir.write("lecture.toml", kBundleScene).string();
-  Running run({OFFSTAGE_BINARY_DIR "/offstage", "bundle", scene, "-o", (dir / "out").string(), "--jobs", "1",
-               "--scale", "8"});
+  Running run({program(), "bundle", scene, "-o", (dir / "out").string(), "--jobs", "1", "--scale", "8"});
   const std::filesystem::path parts =
       dir / ("." + ("out." + std::to_string(run.id())) + ".partial/lecture.mp4.parts");
   ASSERT_TRUE(run.waitUntil([&] { return std::filesystem::exists(parts / "000000.chunk"); }));
@@ -163,7 +162,7 @@ TEST(Poster, OfAProgramIsThatOfItsScene) {
     EXPECT_EQ(result.status, 0) << result.err;
     return readFile(dir / name);
   };
-  const std::vector<std::string> render{OFFSTAGE_BINARY_DIR "/offstage", "render", scene("exercise1_bounce")};
+  const std::vector<std::string> render{offstage::test::program(), "render", scene("exercise1_bounce")};
   EXPECT_EQ(made({program}, "program.png"), made(render, "scene.png"));
   EXPECT_EQ(made({program}, "program.jpg"), made(render, "scene.jpg"));
   EXPECT_THAT(dir.names(), ElementsAre("program.jpg", "program.png", "scene.jpg", "scene.png")); // no video

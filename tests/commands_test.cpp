@@ -151,8 +151,7 @@ TEST(Commands, ARenderOutlivesWhoeverReadsItsMessages) {
   for (const std::string closed : {"<&- >&- 2>&-", "2>&-", ">&-", ">/dev/full 2>/dev/full"}) {
     for (const std::string jobs : {"0", "2"}) {
       std::filesystem::remove(dir / "x.gif");
-      std::vector<std::string> command{"/bin/sh", "-c", "exec \"$@\" " + closed, "sh",
-                                       OFFSTAGE_BINARY_DIR "/offstage"};
+      std::vector<std::string> command{"/bin/sh", "-c", "exec \"$@\" " + closed, "sh", program()};
       command.insert(command.end(), render.begin(), render.end());
       command.insert(command.end(), {"--jobs", jobs});
       EXPECT_EQ(runProcess(command).status, 0) << closed;
@@ -164,8 +163,8 @@ TEST(Commands, ARenderOutlivesWhoeverReadsItsMessages) {
 TEST(Commands, ResultsThatDoNotArriveAreAnErrorNotASuccess) {
   const TempDir dir;
   for (const std::string verb : {"check", "trace"}) {
-    const ProcessResult full = runProcess({"/bin/sh", "-c", "exec \"$@\" >/dev/full", "sh",
-                                           OFFSTAGE_BINARY_DIR "/offstage", verb, scene("fall")});
+    const ProcessResult full =
+        runProcess({"/bin/sh", "-c", "exec \"$@\" >/dev/full", "sh", program(), verb, scene("fall")});
     EXPECT_EQ(full.status, 75) << verb;
     EXPECT_EQ(full.err, "offstage: error: cannot write to standard output: no space left on its disk\n")
         << verb;
@@ -177,9 +176,8 @@ TEST(Commands, ADifferenceThatDoesNotArriveIsAnErrorToo) {
   for (const char* at : {"0", "1"})
     ASSERT_EQ(offstage({"still", scene("fall"), "--at", at, "-o", dir / (std::string(at) + ".png")}).status,
               0);
-  const ProcessResult full =
-      runProcess({"/bin/sh", "-c", "exec \"$@\" >/dev/full", "sh", OFFSTAGE_BINARY_DIR "/offstage", "diff",
-                  dir / "0.png", dir / "1.png"});
+  const ProcessResult full = runProcess(
+      {"/bin/sh", "-c", "exec \"$@\" >/dev/full", "sh", program(), "diff", dir / "0.png", dir / "1.png"});
   EXPECT_EQ(full.status, 75) << full.err;
 }
 

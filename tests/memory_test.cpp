@@ -1,3 +1,4 @@
+#include "tests/support/process.h"
 #include "tests/support/running.h"
 #include "tests/support/temp_dir.h"
 
@@ -45,13 +46,8 @@ TEST_P(Memory, StaysBelow150MbAnd120AWorkerAt1080p) {
     scene += "[[body]]\nshape = \"circle\"\ncenter = [" + std::to_string(100 + 150 * i) + ", " +
              std::to_string(100 + 80 * i) + "]\nradius = 40\nvelocity = [300, 200]\n";
   }
-  std::vector<std::string> command{OFFSTAGE_BINARY_DIR "/offstage",
-                                   "render",
-                                   dir.write("x.toml", scene),
-                                   "--jobs",
-                                   "2",
-                                   "-o",
-                                   dir / GetParam().out};
+  std::vector<std::string> command{program(), "render", dir.write("x.toml", scene), "--jobs",
+                                   "2",       "-o",     dir / GetParam().out};
   if (!GetParam().quality.empty()) command.insert(command.end(), {"--quality", GetParam().quality});
   Running run(command);
   double most = 0.0;

@@ -24,10 +24,6 @@ using ::testing::Not;
 constexpr const char* kBall = "duration = 0.1\n[frame]\nsize = [64, 48]\n[[body]]\nshape = \"circle\"\n"
                               "center = [20, 20]\nradius = 9\nvelocity = [60, 0]\n";
 
-std::string program() {
-  return OFFSTAGE_BINARY_DIR "/offstage";
-}
-
 /// Runs in the folder, so that names can be bare.
 ProcessResult renderIn(const TempDir& dir, std::vector<std::string> arguments) {
   ProcessOptions options;

@@ -439,7 +439,8 @@ TEST(Overlay, RulersAndTheirTicksJoinWithoutGaps) {
           const double reach = (at == 0.0 || at == 200.0 ? 9.0 : 5.0) * std::max(width / 2.0, 1.0) - 1.5;
           // Along the tick's middle, and near its outer side at an end.
           const double outer = at == 0.0 ? 1.2 - 0.5 * width : at == 200.0 ? 0.5 * width - 1.2 : 0.0;
-          for (double across = -reach; across <= reach; across += 0.25) {
+          for (int quarter = 0; 0.25 * quarter <= 2.0 * reach; ++quarter) {
+            const double across = 0.25 * quarter - reach;
             const Vec2 place =
                 ruler.from + (at + (width > 2.0 ? outer : 0.0)) * ruler.ahead + across * ruler.aside();
             const int x = static_cast<int>(std::floor(place.x()));

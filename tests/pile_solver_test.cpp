@@ -154,9 +154,10 @@ TEST(PileSolver, ElasticGasKeepsItsEnergyAndMomentum) {
   setup.walls.restitution.fill(1.0);
   Random random(5);
   for (int i = 0; i < 100; ++i) {
+    const int row = i / 10;
     const double vx = random.nextGaussian() * 80.0;
     setup.bodies.push_back(
-        circle(35 + 60 * (i % 10), 30 + 46 * (i / 10), 8, Vec2(vx, random.nextGaussian() * 80.0)));
+        circle(35 + 60 * (i % 10), 30 + 46 * row, 8, Vec2(vx, random.nextGaussian() * 80.0)));
   }
   World world(setup);
   const double before = energyOf(world);
@@ -281,7 +282,8 @@ TEST(PileSolver, PileRestsUnderForcesAndAnyIntegrator) {
     WorldSetup setup = solverSetup(Vec2(0, 900));
     setup.walls.restitution.fill(0.3);
     for (int i = 0; i < 100; ++i) {
-      setup.bodies.push_back(circle(200 + 22 * (i % 10) + i % 3, 40 + 25 * (i / 10), 10));
+      const int row = i / 10;
+      setup.bodies.push_back(circle(200 + 22 * (i % 10) + i % 3, 40 + 25 * row, 10));
       setup.bodies.back().integrator = integrator;
     }
     addForce(setup, {WindForce{Vec2(30, 0), 0.2}, {}, {}});
@@ -470,7 +472,9 @@ TEST(PairGrid, FindsEveryNearPairOnce) {
 
 TEST(PairGrid, ColumnOfBodiesThatSpreadsHasFewNeighboursAgain) {
   std::vector<Body> bodies;
-  for (int i = 0; i < 4000; ++i) bodies.push_back(circle(10 + 20 * (i % 4), 20 * (i / 4), 10));
+  bodies.reserve(4000);
+  for (int row = 0; row < 1000; ++row)
+    for (int column = 0; column < 4; ++column) bodies.push_back(circle(10 + 20 * column, 20 * row, 10));
   const std::vector<std::uint8_t> paired(bodies.size(), 1);
   PairGrid grid;
   std::size_t pairs = 0;
@@ -484,7 +488,8 @@ TEST(PairGrid, ColumnOfBodiesThatSpreadsHasFewNeighboursAgain) {
   lookAtAll(true);
   EXPECT_LT(pairs, bodies.size() * 12) << "a column 4 wide";
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    bodies[i].position = Vec2(20.0 * static_cast<double>(i % 400), 20.0 * static_cast<double>(i / 400));
+    const std::size_t row = i / 400;
+    bodies[i].position = Vec2(20.0 * static_cast<double>(i % 400), 20.0 * static_cast<double>(row));
   }
   lookAtAll(false);
   lookAtAll(false);

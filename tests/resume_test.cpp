@@ -22,18 +22,12 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::StartsWith;
 
 /// A render of four chunks of 150 frames that takes a second or two of processor time.
 std::vector<std::string> renderTo(const std::string& out, const std::vector<std::string>& extra = {},
                                   const std::string& duration = "10") {
-  std::vector<std::string> arguments{OFFSTAGE_BINARY_DIR "/offstage",
-                                     "render",
-                                     scene("exercise2_bounce"),
-                                     "--duration",
-                                     duration,
-                                     "-o",
-                                     out};
+  std::vector<std::string> arguments{program(), "render", scene("exercise2_bounce"), "--duration", duration,
+                                     "-o",      out};
   arguments.insert(arguments.end(), extra.begin(), extra.end());
   return arguments;
 }
@@ -300,8 +294,8 @@ TEST(Resume, AFullDiskKeepsWhatIsThere) {
   writeFile(dir / "x.mp4", "precious");
   // No file may grow past 8 KiB: the manifest fits, a chunk does not.
   const ProcessResult full =
-      runProcess({"/bin/sh", "-c", "ulimit -f 8; exec \"$@\"", "sh", OFFSTAGE_BINARY_DIR "/offstage",
-                  "render", scene("exercise2_bounce"), "--size", "960x720", "-o", dir / "x.mp4"});
+      runProcess({"/bin/sh", "-c", "ulimit -f 8; exec \"$@\"", "sh", program(), "render",
+                  scene("exercise2_bounce"), "--size", "960x720", "-o", dir / "x.mp4"});
   EXPECT_EQ(full.status, 75) << full.err;
   EXPECT_THAT(full.err, HasSubstr("largest size"));
   EXPECT_EQ(readFile(dir / "x.mp4"), "precious");

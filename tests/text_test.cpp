@@ -248,14 +248,15 @@ TEST(Text, ACharacterThatTheFontLacksIsLocatedInTheScene) {
 
 TEST(Text, CharactersThatTheFontLacksInPlotsPanelsAndRulersAreLocatedAllAtOnce) {
   const std::string problem = problemOf([&] {
-    pictureOf("[[body]]\nname = \"a\"\nradius = 2\n[[plot]]\ny = [\"a.x\", \"a.y\"]\nname = [\"b\", \"漢\"]\n"
+    pictureOf("[[body]]\nname = \"a\"\ncenter = [9, 9]\nradius = 2\n[[plot]]\ny = [\"a.x\", \"a.y\"]\nname = "
+              "[\"b\", \"漢\"]\n"
               "title = \"漢\"\nx_label = \"漢\"\n[[ruler]]\nfrom = [0, 0]\nto = [9, 9]\nunit = \"漢\"\n");
   });
   const std::string lacks = "the font has no glyph for \"漢\" (U+6F22), line 1, character 1";
-  EXPECT_EQ(problem, "2: scene.toml:9:1: error: 'unit' in [[ruler]]: " + lacks +
-                         "\nscene.toml:4:1: error: 'title' in [[plot]]: " + lacks +
-                         "\nscene.toml:4:1: error: the label of x in [[plot]]: " + lacks +
-                         "\nscene.toml:4:1: error: the name of a curve in [[plot]]: " + lacks);
+  EXPECT_EQ(problem, "2: scene.toml:5:1: error: 'title' in [[plot]]: " + lacks +
+                         "\nscene.toml:5:1: error: the label of x in [[plot]]: " + lacks +
+                         "\nscene.toml:5:1: error: the name of a curve in [[plot]]: " + lacks +
+                         "\nscene.toml:10:1: error: 'unit' in [[ruler]]: " + lacks);
   EXPECT_EQ(problemOf([&] { pictureOf("[[panel]]\n[[panel]]\ntitle = \"漢\"\n"); }),
             "2: scene.toml:2:1: error: 'title' in [[panel]]: " + lacks);
 }

@@ -95,7 +95,10 @@ TEST(TileOrder, SmallBatchesStayAsTheyAre) {
 
 TEST(TileOrder, ACrowdOfBoxesShowsTheLastOneOnEveryPixel) {
   Picture picture = blankPicture(kWidth, kHeight, {0, 0, 0, 255});
-  std::vector<Rgba8> expected(static_cast<std::size_t>(kWidth * kHeight), picture.background);
+  std::vector<Rgba8> expected(std::size_t{kWidth} * kHeight, picture.background);
+  const auto shownAt = [&expected](int x, int y) -> Rgba8& {
+    return expected[static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x)];
+  };
   std::mt19937 random(11);
   for (std::size_t i = 0; i < 2 * TileOrder::kLargeBatch; ++i) {
     const int left = static_cast<int>(random() % (kWidth - 30));
@@ -105,13 +108,12 @@ TEST(TileOrder, ACrowdOfBoxesShowsTheLastOneOnEveryPixel) {
     const Rgba8 color{static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i >> 8U), 77, 255};
     picture.primitives.push_back(box(left, top, right, bottom, color));
     for (int y = top; y < bottom; ++y)
-      for (int x = left; x < right; ++x) expected[static_cast<std::size_t>(y * kWidth + x)] = color;
+      for (int x = left; x < right; ++x) shownAt(x, y) = color;
   }
   const Frame frame = drawOnce(picture);
   int wrong = 0;
   for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x)
-      wrong += pixel(frame, x, y) == expected[static_cast<std::size_t>(y * kWidth + x)] ? 0 : 1;
+    for (int x = 0; x < kWidth; ++x) wrong += pixel(frame, x, y) == shownAt(x, y) ? 0 : 1;
   EXPECT_EQ(wrong, 0) << "pixels";
 }
 

@@ -1,7 +1,9 @@
 #include "render/draw/scene_glyphs.h"
 
+#include <algorithm>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -23,7 +25,9 @@ public:
   }
 
   void raise() {
-    if (!problems_.empty()) throw SceneError(std::move(problems_));
+    if (problems_.empty()) return;
+    std::ranges::stable_sort(problems_, {}, [](const Diagnostic& problem) { return problem.where.line; });
+    throw SceneError(std::move(problems_));
   }
 
 private:

@@ -47,6 +47,7 @@ struct Pipe {
   }
   if (!options.directory.empty() && chdir(options.directory.c_str()) != 0) _exit(126);
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   execvp(argv[0], argv.data());
@@ -105,8 +106,12 @@ ProcessResult runProcess(const std::vector<std::string>& arguments, const Proces
   return result;
 }
 
+std::string program() {
+  return OFFSTAGE_BINARY_DIR "/offstage";
+}
+
 ProcessResult offstage(std::vector<std::string> arguments, const ProcessOptions& options) {
-  arguments.insert(arguments.begin(), OFFSTAGE_BINARY_DIR "/offstage");
+  arguments.insert(arguments.begin(), program());
   return runProcess(arguments, options);
 }
 

@@ -28,6 +28,9 @@ struct ProcessOptions {
 /// Runs a program to its end and collects what it prints. `arguments` starts with the program's path.
 ProcessResult runProcess(const std::vector<std::string>& arguments, const ProcessOptions& options = {});
 
+/// The program that was built, to be run by other means than offstage().
+std::string program();
+
 /// Runs the offstage program that this build made.
 ProcessResult offstage(std::vector<std::string> arguments, const ProcessOptions& options = {});
 

@@ -28,6 +28,7 @@ Running::Running(const std::vector<std::string>& arguments) {
     dup2(nothing, STDOUT_FILENO);
     dup2(ends[1], STDERR_FILENO);
     std::vector<char*> argv;
+    argv.reserve(arguments.size() + 1);
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
     execvp(argv[0], argv.data());

@@ -28,10 +28,11 @@ struct WorkloadS {
     const double jitter = 0.45 * (cell - 2.0 * kRadius);
     const auto spread = [&] { return 2.0 * random.next() - 1.0; };
     for (int i = 0; i < count; ++i) {
+      const int row = i / columns;
       Body body;
       body.radius = kRadius;
       const double x = (i % columns + 0.5) * cell + spread() * jitter; // the order of the draws matters
-      const double y = (i / columns + 0.5) * cell + spread() * jitter;
+      const double y = (row + 0.5) * cell + spread() * jitter;
       const double vx = spread() * 2.0;
       const double vy = spread() * 2.0;
       body.position = Vec2(x, side - y);
