@@ -123,7 +123,7 @@ TEST(Parts, TouchNothingThatIsNotTheirs) {
   }
 }
 
-TEST(Parts, TheLockGoesLast) {
+TEST(Parts, TheManifestGoesBehindTheChunksAndTheLockLast) {
   const TempDir dir;
   Parts parts(dir / "x.mp4", manifestOf("a"), Parts::Use::Whole, true);
   for (int chunk = 0; chunk < 20; ++chunk) test::writeFile(parts.chunk(chunk), "chunk");
@@ -141,6 +141,7 @@ TEST(Parts, TheLockGoesLast) {
     at += static_cast<ssize_t>(sizeof(inotify_event) + event->len);
   }
   ASSERT_EQ(removed.size(), 22U); // and the manifest
+  EXPECT_EQ(removed[20], "manifest") << "chunks without one would be those of another render";
   EXPECT_EQ(removed.back(), "lock") << "another run could begin while this one still removes";
   EXPECT_THAT(dir.names(), IsEmpty());
 }

@@ -208,7 +208,9 @@ void Parts::removeTemporaries() const {
 void Parts::removeOwn() const {
   std::error_code ignored;
   for (const std::string& name : namesIn(folder_))
-    if (isOwn(name) && name != kLock) fs::remove(folder_ / name, ignored);
+    if (isOwn(name) && name != kLock && name != kManifest) fs::remove(folder_ / name, ignored);
+  // Behind the chunks: whoever is killed in between leaves some that say what they are of.
+  fs::remove(folder_ / kManifest, ignored);
 }
 
 void Parts::removeAll() {
