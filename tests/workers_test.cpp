@@ -74,6 +74,7 @@ private:
   public:
     explicit Writer(std::filesystem::path file) : file_(std::move(file)) {}
     void write(const Frame& /*frame*/, const FrameTiming& /*timing*/) override {}
+    void skip(const FrameTiming& /*timing*/) override {}
     void finish() override { writeFile(file_, "whole"); }
     [[nodiscard]] std::int64_t bytesWritten() const override { return 5; }
 

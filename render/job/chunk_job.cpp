@@ -16,9 +16,14 @@ void makeChunk(const ChunkJob& job, std::int64_t chunk, FrameMaker& frames,
   if (job.hashes) hashes.emplace(job.parts.hashes(chunk));
   for (std::int64_t index = first; index < end; ++index) {
     throwIfInterrupted();
-    const Frame& frame = frames.make(index);
-    if (hashes) hashes->write(frames.hashLine());
-    writer->write(frame, job.schedule.timing(index));
+    const FrameTiming timing = job.schedule.timing(index);
+    if (!hashes && !job.output.holds(timing)) { // of a .gif every other frame, at 60 a second
+      writer->skip(timing);
+    } else {
+      const Frame& frame = frames.make(index);
+      if (hashes) hashes->write(frames.hashLine());
+      writer->write(frame, timing);
+    }
     job.state.setProgress(chunk, index + 1 - first, writer->bytesWritten());
     if (tick) tick();
   }

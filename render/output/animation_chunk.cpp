@@ -50,6 +50,8 @@ public:
     before_ = frame.rgba;
   }
 
+  void skip(const FrameTiming& timing) override { order_.require(timing); }
+
   void finish() override { file_.commit(); }
   [[nodiscard]] std::int64_t bytesWritten() const override { return file_.bytesWritten(); }
 

@@ -25,6 +25,8 @@ public:
   /// Throws Error(BadInput) unless frames are numbered without a gap from the chunk's first on and each
   /// begins when the one before it ends.
   virtual void write(const Frame& frame, const FrameTiming& timing) = 0;
+  /// In the place of write() for a frame that the output does not hold: it need not be drawn. Throws as it.
+  virtual void skip(const FrameTiming& timing) = 0;
   virtual void finish() = 0; ///< the chunk's file then stands under its name, on the disk
   [[nodiscard]] virtual std::int64_t bytesWritten() const = 0;
 };

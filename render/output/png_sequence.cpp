@@ -66,6 +66,8 @@ public:
     bytes_ += static_cast<std::int64_t>(png.size());
   }
 
+  void skip(const FrameTiming& timing) override { order_.require(timing); }
+
   void finish() override {
     syncFolder(pattern_.folder());
     file_.commit();

@@ -112,6 +112,8 @@ public:
                     [this](const AVPacket& packet) { keep(packet); });
   }
 
+  void skip(const FrameTiming& timing) override { order_.require(timing); }
+
   void finish() override {
     encoder_.drain([this](const AVPacket& packet) { keep(packet); });
     file_.commit();
