@@ -8,6 +8,7 @@
 #include "tests/support/scene_text.h"
 #include "tests/support/temp_dir.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -38,6 +39,37 @@ TEST(Axis, TicksAreRoundNumbers) {
   EXPECT_THAT(labelsOf(Axis(1e-5, 10.0, true), 8),
               ElementsAre("10⁻⁵", "10⁻⁴", "10⁻³", "0.01", "0.1", "1", "10"));
   EXPECT_THAT(labelsOf(Axis(1.0, 10.0, true), 8), ElementsAre("1", "2", "5", "10"));
+}
+
+TEST(Axis, NumbersOfNarrowRangesHaveTheDigitsThatTellThemApart) {
+  using ::testing::ElementsAre;
+  EXPECT_THAT(labelsOf(Axis(1e6, 1e6 + 1.0, false), 5),
+              ElementsAre("1000000.0", "1000000.2", "1000000.4", "1000000.6", "1000000.8", "1000001.0"));
+  EXPECT_THAT(labelsOf(Axis(-394784.176101, -394784.17605, false), 3),
+              ElementsAre("−394784.17610", "−394784.17608", "−394784.17606"));
+  EXPECT_THAT(labelsOf(Axis(1.00001, 1.00005, false), 3), ElementsAre("1.00002", "1.00004"));
+  EXPECT_THAT(labelsOf(Axis(0.0, 2e6, false), 4), ElementsAre("0", "5·10⁵", "1·10⁶", "1.5·10⁶", "2·10⁶"));
+  EXPECT_THAT(labelsOf(Axis(5e10, 5.002e10, false), 2),
+              ElementsAre("5.000·10¹⁰", "5.001·10¹⁰", "5.002·10¹⁰"));
+  EXPECT_THAT(labelsOf(Axis(1e-9, 1.0002e-9, false), 2),
+              ElementsAre("1.0000·10⁻⁹", "1.0001·10⁻⁹", "1.0002·10⁻⁹"));
+}
+
+TEST(Axis, NoTwoNumbersAreAlikeHoweverNarrowTheRange) {
+  for (int exponent = -12; exponent <= 12; ++exponent) {
+    for (int narrow = 0; narrow <= 10; ++narrow) {
+      for (const double sign : {1.0, -1.0}) {
+        const double middle = sign * 3.9478417604 * std::pow(10.0, exponent);
+        const double room = std::abs(middle) * std::pow(10.0, -narrow);
+        std::vector<std::string> labels = labelsOf(Axis(middle - room, middle + room, false), 6);
+        ASSERT_GE(labels.size(), 2U) << middle << " ± " << room;
+        std::ranges::sort(labels);
+        EXPECT_EQ(std::ranges::adjacent_find(labels), labels.end())
+            << *std::ranges::adjacent_find(labels) << " in " << middle << " ± " << room;
+        for (const std::string& label : labels) EXPECT_LE(label.size(), 27U) << label;
+      }
+    }
+  }
 }
 
 TEST(Axis, TicksAreAboutAsManyAsAskedForWhateverTheRange) {
@@ -181,6 +213,30 @@ TEST(Plot, ACurveDoesNotDependOnTheFramesDrawnBefore) {
     }
   }
   EXPECT_EQ(drawn(growing, 50), drawn(PlotSet(scene, viewport, texts), 50));
+}
+
+/// Long numbers below the axis: fewer of them, each whole and clear of the next.
+TEST(Plot, NumbersOfANarrowRangeDoNotRunIntoEachOther) {
+  for (const double width : {160.0, 320.0, 640.0}) {
+    const std::string area = "area = [0, 0, " + std::to_string(width) + ", 180]\nx_label = \"\"\n";
+    SceneSource source(sceneOf(kBall + "[[plot]]\nx_range = [1000000, 1000001]\ny_range = [0, 1]\n" + area +
+                               "y = \"energy\"\ntext_size = 11\ncursor = false\n"),
+                       Viewport::scaled(640, 480, 1.0));
+    Picture picture;
+    source.draw(picture);
+    std::vector<std::array<double, 2>> letters;
+    for (const Primitive& p : picture.primitives)
+      if (p.kind == Primitive::Kind::Mask && p.high.y() > 162.0) letters.push_back({p.low.x(), p.high.x()});
+    std::ranges::sort(letters);
+    std::vector<int> numbers(1, 0); // letters of each
+    for (std::size_t i = 0; i < letters.size(); ++i) {
+      if (i > 0 && letters[i][0] > letters[i - 1][1] + 3.0) numbers.push_back(0);
+      ++numbers.back();
+    }
+    EXPECT_GE(numbers.size(), 2U) << width;
+    for (const int count : numbers) EXPECT_EQ(count, 9) << "\"1000000.0\" in a plot " << width << " px wide";
+    EXPECT_LT(letters.back()[1], width);
+  }
 }
 
 TEST(Plot, LeavesEveryStateAsItIs) {

@@ -10,8 +10,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
-
-#include <fmt/format.h>
+#include <string>
 
 namespace offstage {
 namespace {
@@ -108,6 +107,12 @@ private:
 
 Vec2 toPane(const Viewport& viewport, const Vec2& p) {
   return (p - viewport.offset) / viewport.scale;
+}
+
+/// A ruler's: to the hundredth of a unit, or the pixel. A very large one in three digits.
+std::string lengthLabel(double pixels, double unit) {
+  const double shown = pixels / unit;
+  return tickLabel(shown, std::max(unit > 1.0 ? 0.01 : 1.0, shown >= 1e6 ? 0.01 * shown : 0.0));
 }
 
 } // namespace
@@ -374,8 +379,7 @@ void OverlayPainter::rulerLength(Picture& picture, const RulerOverlay& ruler, co
                                  const Now& now) const {
   const double whole = length(ends[1] - ends[0]);
   const Vec2 ahead = (ends[1] - ends[0]) / whole;
-  const double unit = overlays_.units.pixels;
-  const std::string text = fmt::format("{} {}", tickLabel(whole / unit, unit > 1.0 ? 0.01 : 1.0), ruler.unit);
+  const std::string text = lengthLabel(whole, overlays_.units.pixels) + " " + ruler.unit;
   Vec2 beside(-ahead.y(), ahead.x());
   const bool steep = std::abs(beside.x()) > 0.5; // by more than 30°
   if (steep ? beside.x() < 0.0 : beside.y() > 0.0) beside = -beside;

@@ -14,6 +14,8 @@ namespace {
 
 constexpr double kTolerance = 0.1; ///< px that a curve may lie beside its points
 constexpr double kDisc = 1.8;      ///< the present's radius, in widths of the curve
+constexpr int kLeastTicks = 2;     ///< that an axis is asked for
+constexpr double kBetween = 0.5;   ///< em between the numbers of neighbouring ticks
 constexpr double kLeastAxes = 0.2; ///< of the area's height, where a legend stands above
 
 Rgba8 bytes(const Color& color) {
@@ -96,15 +98,16 @@ void PlotPainter::makeAxes() {
     }
   }
   // About one tick for every six letters' width, and every two lines' height.
-  const int columns = std::max(static_cast<int>(plot_.area[2] / (5.0 * plot_.textSize)), 2);
-  const int rows = std::max(static_cast<int>((plot_.area[3] - legendHeight_) / (2.6 * plot_.textSize)), 2);
+  columns_ = std::max(static_cast<int>(plot_.area[2] / (5.0 * plot_.textSize)), kLeastTicks);
+  const int rows =
+      std::max(static_cast<int>((plot_.area[3] - legendHeight_) / (2.6 * plot_.textSize)), kLeastTicks);
   const auto make = [](const PlotAxis& axis, const Extent& extent, int most) {
     if (axis.range) return Axis((*axis.range)[0], (*axis.range)[1], axis.log);
     return Axis::around(extent.least, extent.greatest, axis.log, most);
   };
-  x_ = make(plot_.x, x, columns);
+  x_ = make(plot_.x, x, columns_);
   y_ = make(plot_.y, y, rows);
-  xTicks_ = x_.ticks(columns);
+  xTicks_ = x_.ticks(columns_);
   yTicks_ = y_.ticks(rows);
 }
 
@@ -165,8 +168,33 @@ std::size_t PlotPainter::pointsIn(const Vec2& low, const Vec2& high) const {
   return count;
 }
 
-/// Leaves room for what stands around the axes.
+/// Leaves room for what stands around the axes. Of numbers that would run into each other there are fewer.
 void PlotPainter::layOut() {
+  placeAxes();
+  while (columns_ > kLeastTicks && numbersTouch()) {
+    xTicks_ = x_.ticks(--columns_);
+    placeAxes();
+  }
+  if (xTicks_.size() > 2 && numbersTouch()) {
+    xTicks_.erase(xTicks_.begin() + 1, xTicks_.end() - 1);
+    placeAxes();
+  }
+}
+
+/// Whether two numbers of the horizontal axis are too near to be told apart.
+bool PlotPainter::numbersTouch() const {
+  const double width = (inner_.high.x() - inner_.low.x()) / viewport_.scale;
+  double end = -std::numeric_limits<double>::infinity();
+  for (const Axis::Tick& tick : xTicks_) {
+    const double half = 0.5 * texts_.measure(tick.label, textLook(NinePosition::Top, plot_.textSize)).x();
+    const double at = x_.place(tick.value) * width;
+    if (at - half < end + kBetween * plot_.textSize) return true;
+    end = at + half;
+  }
+  return false;
+}
+
+void PlotPainter::placeAxes() {
   const double em = plot_.textSize;
   double widest = 0.0;
   for (const Axis::Tick& tick : yTicks_)

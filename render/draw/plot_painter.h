@@ -39,6 +39,8 @@ private:
 
   void makeAxes();
   void layOut();
+  void placeAxes();
+  [[nodiscard]] bool numbersTouch() const;
   void placeLegend();
   [[nodiscard]] std::size_t pointsIn(const Vec2& low, const Vec2& high) const;
   void drawFrame(Picture& picture) const;
@@ -58,6 +60,7 @@ private:
   TextPainter texts_;
   Axis x_{0.0, 1.0, false};
   Axis y_{0.0, 1.0, false};
+  int columns_ = 0; ///< ticks that the horizontal axis is asked for
   std::vector<Axis::Tick> xTicks_, yTicks_;
   Inner inner_{};
   PlotLegend legend_;
