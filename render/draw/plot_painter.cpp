@@ -63,6 +63,13 @@ bool crosses(const Vec2 &from, const Vec2 &to, const Vec2 &low,
   return enters <= leaves;
 }
 
+/// Up to rounding. Not: what is nowhere.
+bool isWithin(const Vec2 &at, const Vec2 &low, const Vec2 &high) {
+  const Vec2 slack = Vec2::Constant(1e-6);
+  return (at.array() >= (low - slack).array()).all() &&
+         (at.array() <= (high + slack).array()).all();
+}
+
 } // namespace
 
 void append(Picture &picture, const Picture &part) {
@@ -435,7 +442,8 @@ void PlotPainter::draw(Picture &picture, std::span<const std::int64_t> frames,
 }
 
 /// A disc at each curve's present, over a line at the latest of them where they
-/// are over time.
+/// are over time. A disc whose middle is within the axes is whole, also at
+/// their edge; the plot's area alone cuts one that is very large.
 void PlotPainter::drawPresent(Picture &picture,
                               std::span<const std::int64_t> frames,
                               double fraction, std::int32_t clip) const {
@@ -453,9 +461,20 @@ void PlotPainter::drawPresent(Picture &picture,
     Pen(picture, line, faded(bytes(plot_.ink), 0.5), clip)
         .line({at, inner_.low.y()}, {at, inner_.high.y()});
   }
+  const auto area = static_cast<std::int32_t>(picture.clips.size());
+  const Vec2 corner =
+      Vec2(plot_.area[0], plot_.area[1]) * viewport_.scale + viewport_.offset;
+  const Vec2 end =
+      corner + Vec2(plot_.area[2], plot_.area[3]) * viewport_.scale;
+  const PixelRect &pane = viewport_.clip;
+  picture.clips.push_back(
+      {std::max(pane.left, static_cast<int>(std::floor(corner.x()))),
+       std::max(pane.top, static_cast<int>(std::floor(corner.y()))),
+       std::min(pane.right, static_cast<int>(std::ceil(end.x()))),
+       std::min(pane.bottom, static_cast<int>(std::ceil(end.y())))});
   for (std::size_t curve = 0; curve < curves_.size(); ++curve) {
-    if (discs[curve].allFinite())
-      Pen(picture, line, bytes(plot_.curves[curve].color), clip)
+    if (isWithin(discs[curve], inner_.low, inner_.high))
+      Pen(picture, line, bytes(plot_.curves[curve].color), area)
           .disc(discs[curve], kDisc * plot_.width * viewport_.scale);
   }
 }
