@@ -43,6 +43,8 @@ private:
   void placeAxes();
   [[nodiscard]] bool numbersTouch() const;
   void placeLegend();
+  bool toFreeCorner();
+  bool toRows();
   [[nodiscard]] std::size_t pointsIn(const Vec2& low, const Vec2& high) const;
   void drawFrame(Picture& picture) const;
   void grow(Grown& grown, std::size_t curve, std::size_t frames) const;
