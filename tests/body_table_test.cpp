@@ -2,6 +2,7 @@
 #include "tests/support/temp_dir.h"
 #include "tests/support/test_frames.h"
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <string>
@@ -155,6 +156,29 @@ TEST(BodyTable, WhatIsWrongIsNamedWithItsPlace) {
   EXPECT_THAT(Tabled(scene + "name = 'a'\n", "x,y,radius\n1,2,3\n").errors(),
               HasSubstr("s.toml:3:8: error: 'name' in [[bodies]] cannot be the same"));
   EXPECT_EQ(Tabled(scene, "x,y,radius\n").load().world.bodies.size(), 0U);
+}
+
+/// Neither a wrong value of a row nor one of the row before hides what else is wrong.
+TEST(BodyTable, AllThatIsWrongInARowIsToldInOneRun) {
+  const std::string errors =
+      Tabled("[[bodies]]\ntable = 't.csv'\n", "name,x,y,radius,fill,shape\na,1,2,-3,purpel,circle\n"
+                                              "b,1,,3,purpel,circle\nc,z,2,3,red,squar\nd,1,u,3,red,circle\n")
+          .errors();
+  EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n') + 1, 7) << errors;
+  EXPECT_THAT(errors,
+              AllOf(HasSubstr("t.csv:2:7: error: 'radius' of a body must be at least 0, but it is \"-3\""),
+                    HasSubstr("t.csv:2:10: error: 'fill' in [[bodies]] must be a colour"),
+                    HasSubstr("t.csv:3:1: error: a circle needs 'y', and the cell is empty"),
+                    HasSubstr("t.csv:3:8: error: 'fill' in [[bodies]] must be a colour"),
+                    HasSubstr("t.csv:4:3: error: 'x' of a body must be a finite number, but it is \"z\""),
+                    HasSubstr("t.csv:4:13: error: 'shape' in [[bodies]] must be"),
+                    HasSubstr("t.csv:5:5: error: 'y' of a body must be a finite number, but it is \"u\"")));
+}
+
+TEST(BodyTable, AnUnknownKeyIsToldOnceAndHidesNoRow) {
+  EXPECT_EQ(Tabled("[[bodies]]\ntable = 't.csv'\ncolor = 'red'\n", "x,y,radius\n1,2,-3\n").errors(),
+            "2: s.toml:3:1: error: unknown key 'color' in [[bodies]]; did you mean 'fill'?\n"
+            "t.csv:2:5: error: 'radius' of a body must be at least 0, but it is \"-3\"");
 }
 
 TEST(BodyTable, AHundredThousandBodiesLoadInWellUnderASecond) {

@@ -422,6 +422,20 @@ TEST(Overlay, ARulersLengthIsClearOfItsTicksAtEveryAngle) {
   }
 }
 
+TEST(Overlay, ARulersLengthIsOnItsOtherSideWhereItWouldLeaveThePane) {
+  const auto label = [](const std::string& from, const std::string& to) {
+    return labelOf("duration = 1\n[[ruler]]\nunit = \"px\"\nfrom = " + from + "\nto = " + to + "\n", 0.0);
+  };
+  const Label top = label("[100, 12]", "[300, 12]");
+  EXPECT_GT(top.low.y(), 12.0 + 9.0);
+  EXPECT_NEAR(0.5 * (top.low.x() + top.high.x()), 200.0, 3.0);
+  const Label right = label("[620, 100]", "[620, 300]");
+  EXPECT_LT(right.high.x(), 620.0 - 9.0);
+  EXPECT_LT(label("[100, 60]", "[300, 60]").high.y(), 60.0 - 9.0) << "as long as it has room";
+  EXPECT_LT(label("[100, 470]", "[300, 470]").high.y(), 470.0 - 9.0);
+  EXPECT_GT(label("[560, 100]", "[560, 300]").low.x(), 560.0 + 9.0);
+}
+
 /// From a tick's tip over the line to its other tip there is ink, also where the two meet, and also at the
 /// ends.
 TEST(Overlay, RulersAndTheirTicksJoinWithoutGaps) {

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace offstage::test {
@@ -93,11 +94,11 @@ TEST(PlotLegend, StandsInACornerThatNoCurveGoesThroughInTheWholeRun) {
     bool right, up;
   };
   const Plot plot = plotOf(2);
-  for (const Case& each :
-       {Case{"falls", [](double x) { return 1.0 - x; }, true, true},
-        Case{"rises at the end", [](double x) { return std::pow(x, 8.0); }, false, true},
-        Case{"is at the top", [](double) { return 0.95; }, true, false},
-        Case{"is at the top and falls", [](double x) { return 0.98 - std::pow(x, 8.0); }, false, false}}) {
+  for (const Case& each : {Case{"falls", [](double x) { return 1.0 - x; }, true, true},
+                           Case{"rises at the end", [](double x) { return std::pow(x, 8.0); }, false, true},
+                           Case{"is at the top", [](double) { return 0.95; }, true, false},
+                           Case{"is at the top and falls",
+                                [](double x) { return 0.98 - 0.97 * std::pow(x, 8.0); }, false, false}}) {
     const Drawn result = drawn(plot, {each.curve, each.curve});
     ASSERT_TRUE(result.box) << each.name;
     const auto& [low, high] = *result.box;
@@ -150,14 +151,35 @@ TEST(PlotLegend, TakesAsManyRowsAsItsNamesNeedInColumns) {
   }
 }
 
-/// Rows would leave nothing of the axes: the legend is in the corner that shows the least of the curves.
-TEST(PlotLegend, StaysInTheAxesOfASmallPlot) {
-  const Plot plot = plotOf(3, {20, 10, 160, 70});
+/// However small the plot is: inside the axes where no curve goes, or above all curves, or not at all.
+TEST(PlotLegend, CoversNoCurveInASmallPlot) {
   const Curve wave = [](double x) { return 0.5 + 0.5 * std::cos(60.0 * x); };
-  const Drawn result = drawn(plot, {wave, wave, [](double) { return 1.0; }});
-  ASSERT_TRUE(result.box);
-  EXPECT_GE(result.box->first.x(), 20.0);
-  EXPECT_LE(result.box->second.x(), 180.0);
+  const std::vector<Curve> waves{wave, wave, [](double) { return 1.0; }};
+  int shown = 0;
+  int leftOut = 0;
+  for (const double width : {60.0, 90.0, 160.0, 240.0}) {
+    for (const double height : {50.0, 70.0, 90.0, 130.0, 200.0}) {
+      const Plot plot = plotOf(3, {20, 10, width, height});
+      const Drawn result = drawn(plot, waves);
+      const std::string size = fmt::format("in {}x{} px", width, height);
+      EXPECT_TRUE(result.isStill) << size;
+      ++(result.lines.empty() ? leftOut : shown);
+      if (result.box) {
+        EXPECT_EQ(hiddenBy(*result.box, result.discs), 0U) << size;
+      }
+      if (result.box || result.lines.empty()) continue;
+      double top = 1e9;
+      for (const Primitive& disc : result.discs) top = std::min(top, disc.center.y() - disc.outer);
+      for (const Box& line : result.lines) {
+        EXPECT_LT(line.second.y() + 0.3 * plot.textSize, top) << size;
+        EXPECT_GE(line.first.y(), plot.area[1]) << size;
+        EXPECT_GE(line.first.x(), plot.area[0]) << size;
+        EXPECT_LE(line.second.x(), plot.area[0] + width) << size;
+      }
+    }
+  }
+  EXPECT_GE(shown, 8);
+  EXPECT_GE(leftOut, 2);
 }
 
 /// Parts that are clipped at the axes hide nothing, and gaps are none.

@@ -8,6 +8,7 @@
 #include "tests/support/scene_text.h"
 #include "tests/support/temp_dir.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -38,6 +39,37 @@ TEST(Axis, TicksAreRoundNumbers) {
   EXPECT_THAT(labelsOf(Axis(1e-5, 10.0, true), 8),
               ElementsAre("10⁻⁵", "10⁻⁴", "10⁻³", "0.01", "0.1", "1", "10"));
   EXPECT_THAT(labelsOf(Axis(1.0, 10.0, true), 8), ElementsAre("1", "2", "5", "10"));
+}
+
+TEST(Axis, NumbersOfNarrowRangesHaveTheDigitsThatTellThemApart) {
+  using ::testing::ElementsAre;
+  EXPECT_THAT(labelsOf(Axis(1e6, 1e6 + 1.0, false), 5),
+              ElementsAre("1000000.0", "1000000.2", "1000000.4", "1000000.6", "1000000.8", "1000001.0"));
+  EXPECT_THAT(labelsOf(Axis(-394784.176101, -394784.17605, false), 3),
+              ElementsAre("−394784.17610", "−394784.17608", "−394784.17606"));
+  EXPECT_THAT(labelsOf(Axis(1.00001, 1.00005, false), 3), ElementsAre("1.00002", "1.00004"));
+  EXPECT_THAT(labelsOf(Axis(0.0, 2e6, false), 4), ElementsAre("0", "5·10⁵", "1·10⁶", "1.5·10⁶", "2·10⁶"));
+  EXPECT_THAT(labelsOf(Axis(5e10, 5.002e10, false), 2),
+              ElementsAre("5.000·10¹⁰", "5.001·10¹⁰", "5.002·10¹⁰"));
+  EXPECT_THAT(labelsOf(Axis(1e-9, 1.0002e-9, false), 2),
+              ElementsAre("1.0000·10⁻⁹", "1.0001·10⁻⁹", "1.0002·10⁻⁹"));
+}
+
+TEST(Axis, NoTwoNumbersAreAlikeHoweverNarrowTheRange) {
+  for (int exponent = -12; exponent <= 12; ++exponent) {
+    for (int narrow = 0; narrow <= 10; ++narrow) {
+      for (const double sign : {1.0, -1.0}) {
+        const double middle = sign * 3.9478417604 * std::pow(10.0, exponent);
+        const double room = std::abs(middle) * std::pow(10.0, -narrow);
+        std::vector<std::string> labels = labelsOf(Axis(middle - room, middle + room, false), 6);
+        ASSERT_GE(labels.size(), 2U) << middle << " ± " << room;
+        std::ranges::sort(labels);
+        EXPECT_EQ(std::ranges::adjacent_find(labels), labels.end())
+            << *std::ranges::adjacent_find(labels) << " in " << middle << " ± " << room;
+        for (const std::string& label : labels) EXPECT_LE(label.size(), 27U) << label;
+      }
+    }
+  }
 }
 
 TEST(Axis, TicksAreAboutAsManyAsAskedForWhateverTheRange) {
@@ -181,6 +213,94 @@ TEST(Plot, ACurveDoesNotDependOnTheFramesDrawnBefore) {
     }
   }
   EXPECT_EQ(drawn(growing, 50), drawn(PlotSet(scene, viewport, texts), 50));
+}
+
+/// Long numbers below the axis: fewer of them, each whole and clear of the next.
+TEST(Plot, NumbersOfANarrowRangeDoNotRunIntoEachOther) {
+  for (const double width : {160.0, 320.0, 640.0}) {
+    const std::string area = "area = [0, 0, " + std::to_string(width) + ", 180]\nx_label = \"\"\n";
+    SceneSource source(sceneOf(kBall + "[[plot]]\nx_range = [1000000, 1000001]\ny_range = [0, 1]\n" + area +
+                               "y = \"energy\"\ntext_size = 11\ncursor = false\n"),
+                       Viewport::scaled(640, 480, 1.0));
+    Picture picture;
+    source.draw(picture);
+    std::vector<std::array<double, 2>> letters;
+    for (const Primitive& p : picture.primitives)
+      if (p.kind == Primitive::Kind::Mask && p.high.y() > 162.0) letters.push_back({p.low.x(), p.high.x()});
+    std::ranges::sort(letters);
+    std::vector<int> numbers(1, 0); // letters of each
+    for (std::size_t i = 0; i < letters.size(); ++i) {
+      if (i > 0 && letters[i][0] > letters[i - 1][1] + 3.0) numbers.push_back(0);
+      ++numbers.back();
+    }
+    EXPECT_GE(numbers.size(), 2U) << width;
+    for (const int count : numbers) EXPECT_EQ(count, 9) << "\"1000000.0\" in a plot " << width << " px wide";
+    EXPECT_LT(letters.back()[1], width);
+  }
+}
+
+/// Between two frames the present is as far between their values as the bodies are between their places.
+TEST(Plot, InSlowMotionThePresentMovesBetweenTheFramesToo) {
+  for (const char* whole : {"false", "true"}) {
+    const Scene scene =
+        sceneOf(kBall + "[[plot]]\ny = \"ball.y\"\narea = [0, 0, 640, 480]\nwhole = " + whole);
+    struct Present {
+      Vec2 disc, end; ///< of the curve
+    };
+    const auto presentAt = [&scene](std::int64_t frame, double fraction) {
+      SceneSource source(scene, Viewport::scaled(640, 480, 1.0));
+      source.show({.moment = {frame, fraction}, .time = 1.0});
+      Picture picture;
+      source.draw(picture);
+      Present present{Vec2::Zero(), Vec2::Zero()};
+      for (const Primitive& p : picture.primitives) {
+        if (p.kind == Primitive::Kind::Disc) present.disc = p.center;
+        if (p.kind == Primitive::Kind::Elbow || p.kind == Primitive::Kind::Strip) present.end = p.high;
+      }
+      return present;
+    };
+    const Present before = presentAt(60, 0.0);
+    const Present after = presentAt(61, 0.0);
+    EXPECT_GT((after.disc - before.disc).norm(), 1.0);
+    for (const double fraction : {0.25, 0.5, 0.875}) {
+      const Present now = presentAt(60, fraction);
+      const Vec2 wanted = before.disc + (after.disc - before.disc) * fraction;
+      EXPECT_LT((now.disc - wanted).norm(), 1e-9) << now.disc.transpose() << " at " << fraction;
+      if (whole == std::string("false")) {
+        EXPECT_NEAR((now.end - wanted).norm(), 1.0, 1e-6) << "half the line's width: " << now.end.transpose();
+      }
+    }
+  }
+}
+
+/// The present's disc is whole at the edge of the axes, also in the run's last frame; beyond it there is
+/// none.
+TEST(Plot, ThePresentsDiscIsNotCutAtTheAxes) {
+  struct Case {
+    const char* range;
+    bool isSeen;
+  };
+  for (const auto& [range, isSeen] : {Case{"[0, 31]", true}, Case{"[31, 40]", true}, Case{"[0, 40]", true},
+                                      Case{"[0, 30.9]", false}, Case{"[31.1, 40]", false}}) {
+    SceneSource source(sceneOf(kBall + "[[plot]]\ny = \"ball.vx\"\nx_range = [0, 2]\ny_range = " + range),
+                       Viewport::scaled(640, 480, 1.0));
+    for (int frame = 0; frame <= 120; ++frame) {
+      Picture picture;
+      source.draw(picture);
+      std::vector<Primitive> discs;
+      for (const Primitive& p : picture.primitives)
+        if (p.kind == Primitive::Kind::Disc && p.clip >= 0) discs.push_back(p);
+      ASSERT_EQ(discs.size(), isSeen ? 1U : 0U) << range << " in frame " << frame;
+      if (frame < 120) source.step();
+      if (!isSeen) continue;
+      const Primitive& disc = discs.front();
+      const PixelRect clip = picture.clips.at(static_cast<std::size_t>(disc.clip));
+      EXPECT_LE(clip.left, disc.center.x() - disc.outer) << range << " in frame " << frame;
+      EXPECT_LE(clip.top, disc.center.y() - disc.outer) << range << " in frame " << frame;
+      EXPECT_GE(clip.right, disc.center.x() + disc.outer) << range << " in frame " << frame;
+      EXPECT_GE(clip.bottom, disc.center.y() + disc.outer) << range << " in frame " << frame;
+    }
+  }
 }
 
 TEST(Plot, LeavesEveryStateAsItIs) {

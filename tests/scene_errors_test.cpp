@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -93,6 +94,36 @@ TEST(SceneErrors, AllErrorsOfAFileInTheOrderOfItsLines) {
                   "scene.toml:7:1: error: unknown key 'mas' in [[body]]; did you mean 'mass'?",
                   "scene.toml:10:9: error: 'scale' in [frame] must be a number, but it is the string \"x\"",
                   "scene.toml:12:7: error: 'fps' in [clock] must be a finite number, but it is nan"));
+}
+
+/// What other programs, or other tables, call it.
+TEST(SceneErrors, AnUnknownKeyThatIsCalledSoElsewhereNamesTheOneThatIsMeant) {
+  struct Case {
+    const char* table;
+    const char* wrong;
+    const char* meant;
+  };
+  for (const auto& [table, wrong, meant] :
+       {Case{"[[body]]", "color", "fill"},      Case{"[[body]]", "colour", "fill"},
+        Case{"[[bodies]]", "color", "fill"},    Case{"[[spawn]]", "color", "fill"},
+        Case{"[[launch]]", "color", "fill"},    Case{"[[text]]", "fill", "color"},
+        Case{"[[text]]", "colour", "color"},    Case{"[[trail]]", "colour", "color"},
+        Case{"[[plot]]", "colour", "color"},    Case{"[frame]", "colour", "background"},
+        Case{"[frame]", "color", "background"}, Case{"[[launch]]", "to", "toward"},
+        Case{"[[body]]", "vx", "velocity"},     Case{"[[body]]", "vy", "velocity"},
+        Case{"[[body]]", "x", "center"},        Case{"[[body]]", "y", "center"},
+        Case{"[[body]]", "width", "size"},      Case{"[[body]]", "height", "size"},
+        Case{"[[text]]", "position", "at"},     Case{"[[spawn]]", "max", "limit"},
+        Case{"[[pause]]", "duration", "for"},   Case{"[[camera]]", "duration", "for"},
+        Case{"[[caption]]", "at", "from"}}) {
+    EXPECT_THAT(
+        errorsOf(fmt::format("{}\n{} = 1\n", table, wrong)),
+        ::testing::Contains(fmt::format("scene.toml:2:1: error: unknown key '{}' in {}; did you mean '{}'?",
+                                        wrong, table, meant)));
+  }
+  EXPECT_THAT(errorsOf("[[body]]\ncenter = [0, 0]\nradius = 1\nstroke = { colour = \"red\" }\n"),
+              ElementsAre("scene.toml:4:12: error: unknown key 'stroke.colour' in [[body]]; did you mean "
+                          "'stroke.color'?"));
 }
 
 TEST(SceneErrors, WhatHoldsOneErrorALineAndTheExitCodeIsBadInput) {

@@ -11,6 +11,10 @@
 namespace offstage {
 namespace {
 
+/// Behind the point of a number before a power of ten, that stands there however long the plain number is.
+constexpr int kFewDigits = 2;
+constexpr int kPowerLength = 4; ///< letters of "·10⁶"
+
 /// 10^exponent, exactly where a double can hold it.
 double powerOfTen(int exponent) {
   return exponent >= 0 ? strict::pow(10.0, exponent) : 1.0 / strict::pow(10.0, -exponent);
@@ -62,8 +66,10 @@ std::vector<Axis::Tick> Axis::ticks(int most) const {
       place();
     }
     // Counted from 0, for where doubles have no fraction left adding 1 may change nothing.
-    for (int i = 0; i <= count && i <= most; ++i)
-      ticks.push_back({(first + i) * step, tickLabel((first + i) * step, step)});
+    const double last = first + std::min(std::floor(count), static_cast<double>(most));
+    const double greatest = std::max(std::abs(first), std::abs(last)) * step;
+    for (int i = 0; first + i <= last && i <= most; ++i)
+      ticks.push_back({(first + i) * step, tickLabel((first + i) * step, step, greatest)});
     return ticks;
   }
   const int first = ceilingOfLog(low_);
@@ -102,15 +108,24 @@ Axis Axis::around(double least, double greatest, bool log, int most) {
           false};
 }
 
-std::string tickLabel(double value, double step) {
-  const double size = std::max(std::abs(value), step);
-  if (size >= 1e6 || step < 1e-4) {
-    if (value == 0.0) return "0";
-    const int exponent = floorOfLog(std::abs(value));
-    return withMinus(fmt::format("{:.3g}", value / powerOfTen(exponent))) + "·10" + raised(exponent);
-  }
-  const int decimals = std::max(-floorOfLog(step), 0);
-  return withMinus(fmt::format("{:.{}f}", value, decimals));
+std::string tickLabel(double value, double step, double greatest) {
+  const double size = std::max({std::abs(value), greatest, step});
+  const int stepExponent = floorOfLog(step);
+  const int decimals = std::max(-stepExponent, 0);
+  const bool extreme = size >= 1e6 || step < 1e-4;
+  // What a factor before a power of ten would need. Of many digits only few would be spared.
+  const int digits = floorOfLog(size) - stepExponent;
+  const int plainLength = std::max(floorOfLog(size), 0) + 1 + (decimals > 0 ? decimals + 1 : 0);
+  const int powerLength = digits + 2 + kPowerLength;
+  if (!extreme || (digits > kFewDigits && plainLength <= powerLength))
+    return withMinus(fmt::format("{:.{}f}", value, decimals));
+  if (value == 0.0) return "0";
+  const int exponent = floorOfLog(std::abs(value));
+  const double factor = value / powerOfTen(exponent);
+  const std::string text = digits > kFewDigits
+                               ? fmt::format("{:.{}f}", factor, std::max(exponent - stepExponent, 0))
+                               : fmt::format("{:.{}g}", factor, kFewDigits + 1);
+  return withMinus(text) + "·10" + raised(exponent);
 }
 
 } // namespace offstage

@@ -35,8 +35,10 @@ private:
   bool log_;
 };
 
-/// A number as a tick shows it: as many decimals as `step` needs, "−" for minus, powers of ten from a million
-/// and below a ten-thousandth on.
-std::string tickLabel(double value, double step);
+/// A number as a tick shows it: as many digits as `step` (> 0) needs, so that no two neighbours look alike,
+/// and "−" for minus. Powers of ten from a million and below a ten-thousandth on, unless so many digits stand
+/// before them that the plain number is no longer. `greatest`: the largest size of all numbers that shall
+/// look alike; 0: each for itself.
+std::string tickLabel(double value, double step, double greatest = 0.0);
 
 } // namespace offstage

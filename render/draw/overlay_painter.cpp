@@ -10,8 +10,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
-
-#include <fmt/format.h>
+#include <string>
 
 namespace offstage {
 namespace {
@@ -108,6 +107,12 @@ private:
 
 Vec2 toPane(const Viewport& viewport, const Vec2& p) {
   return (p - viewport.offset) / viewport.scale;
+}
+
+/// A ruler's: to the hundredth of a unit, or the pixel. A very large one in three digits.
+std::string lengthLabel(double pixels, double unit) {
+  const double shown = pixels / unit;
+  return tickLabel(shown, std::max(unit > 1.0 ? 0.01 : 1.0, shown >= 1e6 ? 0.01 * shown : 0.0));
 }
 
 } // namespace
@@ -369,13 +374,13 @@ void OverlayPainter::ruler(Picture& picture, const RulerOverlay& ruler, const No
 }
 
 /// Beside the ruler's middle, above it or, where it is steep, to the right: so far away that the text's box
-/// is clear of the ticks. A camera makes the ticks longer, and not the text.
+/// is clear of the ticks. On the other side where only there it is in the pane. A camera makes the ticks
+/// longer, and not the text.
 void OverlayPainter::rulerLength(Picture& picture, const RulerOverlay& ruler, const std::array<Vec2, 2>& ends,
                                  const Now& now) const {
   const double whole = length(ends[1] - ends[0]);
   const Vec2 ahead = (ends[1] - ends[0]) / whole;
-  const double unit = overlays_.units.pixels;
-  const std::string text = fmt::format("{} {}", tickLabel(whole / unit, unit > 1.0 ? 0.01 : 1.0), ruler.unit);
+  const std::string text = lengthLabel(whole, overlays_.units.pixels) + " " + ruler.unit;
   Vec2 beside(-ahead.y(), ahead.x());
   const bool steep = std::abs(beside.x()) > 0.5; // by more than 30°
   if (steep ? beside.x() < 0.0 : beside.y() > 0.0) beside = -beside;
@@ -386,9 +391,18 @@ void OverlayPainter::rulerLength(Picture& picture, const RulerOverlay& ruler, co
   const Viewport& camera = now.painter.viewport();
   const Viewport& frame = now.texts.viewport();
   const double ticks = kLongTick * std::max(ruler.width / kUsualRuler, 1.0) * (camera.scale / frame.scale);
-  const double reach = 0.5 * beside.cwiseAbs().dot(now.texts.measure(text, look)); // of the box towards it
+  const Vec2 box = now.texts.measure(text, look);
+  const double reach = 0.5 * beside.cwiseAbs().dot(box); // of the box towards it
   const Vec2 middle = shownAt(0.5 * (ends[0] + ends[1]), frame, camera);
-  now.texts.draw(picture, text, look, middle + beside * (ticks + 0.3 * ruler.labelSize + reach), 1.0, true);
+  const Vec2 away = beside * (ticks + 0.3 * ruler.labelSize + reach);
+  const Vec2 low = toPane(frame, Vec2(frame.clip.left, frame.clip.top)) + 0.5 * box;
+  const Vec2 high = toPane(frame, Vec2(frame.clip.right, frame.clip.bottom)) - 0.5 * box;
+  const auto fits = [&](const Vec2& at) {
+    return (at.array() >= low.array()).all() && (at.array() <= high.array()).all();
+  };
+  const bool otherSide = !fits(middle + away) && fits(middle - away);
+  const Vec2 at = middle + away * (otherSide ? -1.0 : 1.0);
+  now.texts.draw(picture, text, look, at, 1.0, true);
 }
 
 } // namespace offstage

@@ -27,19 +27,25 @@ PlotLegend::PlotLegend(const Plot& plot, const Viewport& viewport, const TextPai
     : viewport_(viewport),
       texts_(texts),
       curves_(plot.curves),
-      em_(plot.textSize * viewport.scale),
-      line_(std::max(plot.width, 0.15 * plot.textSize) * viewport.scale),
+      textSize_(plot.textSize),
+      width_(plot.width),
       ground_{plot.background.red, plot.background.green, plot.background.blue,
               std::min(plot.background.alphaByte(), kGround)} {
-  look_.size = plot.textSize;
   look_.color = plot.ink;
   look_.anchor = NinePosition::Left;
+  setSize(plot.textSize);
+}
+
+void PlotLegend::setSize(double size) {
+  look_.size = size;
+  em_ = size * viewport_.scale;
+  line_ = std::max(width_, 0.15 * size) * viewport_.scale;
 }
 
 /// All of one size: that of the name which needs the smallest.
 void PlotLegend::setNames(double room) {
   const double nameRoom = std::max(room - kName * em_, 0.0) / viewport_.scale;
-  const double least = kLeastShare * look_.size;
+  const double least = kLeastShare * textSize_; // also of a legend that is smaller
   TextLook look = look_;
   for (const PlotCurve& curve : curves_)
     look.size = std::min(look.size, fitText(texts_, curve.name, look_, nameRoom, least).look.size);
@@ -91,16 +97,9 @@ bool PlotLegend::toFreeCorner(const Vec2& low, const Vec2& high, const Crossing&
   return false;
 }
 
-void PlotLegend::toBestCorner(const Vec2& low, const Vec2& high, const Crossing& crossing) {
-  setNames(high.x() - low.x() - (2.0 * kAway + kBeside) * em_);
-  std::size_t least = std::numeric_limits<std::size_t>::max();
-  for (int corner = 0; corner < 4; ++corner) {
-    const Box box = boxIn(corner, low, high);
-    const std::size_t crossed = crossing(box.low, box.high);
-    if (crossed >= least) continue;
-    least = crossed;
-    goTo(box);
-  }
+void PlotLegend::leaveOut() {
+  entries_.clear();
+  box_.reset();
 }
 
 /// Where each of `count` columns ends, from the first one's beginning.

@@ -19,15 +19,16 @@ public:
 
   PlotLegend(const Plot& plot, const Viewport& viewport, const TextPainter& texts);
 
+  void setSize(double size); ///< px of the names; at first that of the plot's texts
   /// Goes to a corner of the axes, `low` … `high`, that no curve goes through: the upper right, the upper
   /// left, the lower right or the lower left one. False when there is none in which it has room.
   bool toFreeCorner(const Vec2& low, const Vec2& high, const Crossing& crossing);
-  /// Goes to the corner that the least of the curves goes through, with names that fit in it.
-  void toBestCorner(const Vec2& low, const Vec2& high, const Crossing& crossing);
   /// Goes into rows between `left` and `right` that begin at `top`, about `middle` where there is room, in as
   /// many columns as fit.
   /// Returns their height.
   double toRows(double left, double right, double middle, double top);
+
+  void leaveOut(); ///< nothing is drawn
 
   void draw(Picture& picture) const;
 
@@ -53,8 +54,10 @@ private:
   TextPainter texts_;
   std::vector<PlotCurve> curves_;
   TextLook look_;
-  double em_;
-  double line_; ///< how thick a line is
+  double textSize_;   ///< px: the plot's
+  double width_;      ///< px of the curves
+  double em_ = 0.0;   ///< of the names
+  double line_ = 0.0; ///< how thick a line is
   Rgba8 ground_;
   std::vector<Entry> entries_;
   std::optional<Box> box_; ///< behind the entries

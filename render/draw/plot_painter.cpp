@@ -4,6 +4,7 @@
 #include "render/draw/pen.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -14,7 +15,11 @@ namespace {
 
 constexpr double kTolerance = 0.1; ///< px that a curve may lie beside its points
 constexpr double kDisc = 1.8;      ///< the present's radius, in widths of the curve
+constexpr int kLeastTicks = 2;     ///< that an axis is asked for
+constexpr double kBetween = 0.5;   ///< em between the numbers of neighbouring ticks
 constexpr double kLeastAxes = 0.2; ///< of the area's height, where a legend stands above
+/// Of a legend's names, in sizes of the plot's texts: the first with which it has room.
+constexpr std::array kLegendSizes{1.0, 0.85, 0.7};
 
 Rgba8 bytes(const Color& color) {
   return {color.red, color.green, color.blue, color.alphaByte()};
@@ -53,6 +58,12 @@ bool crosses(const Vec2& from, const Vec2& to, const Vec2& low, const Vec2& high
     leaves = std::min(leaves, std::max(one, other));
   }
   return enters <= leaves;
+}
+
+/// Up to rounding. Not: what is nowhere.
+bool isWithin(const Vec2& at, const Vec2& low, const Vec2& high) {
+  const Vec2 slack = Vec2::Constant(1e-6);
+  return (at.array() >= (low - slack).array()).all() && (at.array() <= (high + slack).array()).all();
 }
 
 } // namespace
@@ -96,15 +107,16 @@ void PlotPainter::makeAxes() {
     }
   }
   // About one tick for every six letters' width, and every two lines' height.
-  const int columns = std::max(static_cast<int>(plot_.area[2] / (5.0 * plot_.textSize)), 2);
-  const int rows = std::max(static_cast<int>((plot_.area[3] - legendHeight_) / (2.6 * plot_.textSize)), 2);
+  columns_ = std::max(static_cast<int>(plot_.area[2] / (5.0 * plot_.textSize)), kLeastTicks);
+  const int rows =
+      std::max(static_cast<int>((plot_.area[3] - legendHeight_) / (2.6 * plot_.textSize)), kLeastTicks);
   const auto make = [](const PlotAxis& axis, const Extent& extent, int most) {
     if (axis.range) return Axis((*axis.range)[0], (*axis.range)[1], axis.log);
     return Axis::around(extent.least, extent.greatest, axis.log, most);
   };
-  x_ = make(plot_.x, x, columns);
+  x_ = make(plot_.x, x, columns_);
   y_ = make(plot_.y, y, rows);
-  xTicks_ = x_.ticks(columns);
+  xTicks_ = x_.ticks(columns_);
   yTicks_ = y_.ticks(rows);
 }
 
@@ -123,28 +135,39 @@ void PlotPainter::text(Picture& picture, const std::string& text, const Vec2& ou
 }
 
 /// In a corner that no curve goes through in the whole run, so that it stands still and hides nothing; where
-/// there is none, in rows of its own above the axes. Where these would take too much of a small plot, it is
-/// in the corner that shows the least.
+/// there is none, in rows of its own above the axes. Where these would take too much of a small plot, the
+/// same with smaller names; where nothing helps, it is left out, for curves are what a plot is there for.
 void PlotPainter::placeLegend() {
+  for (const double size : kLegendSizes) {
+    legend_.setSize(size * plot_.textSize);
+    if (toFreeCorner() || toRows()) return;
+  }
+  legend_.leaveOut();
+}
+
+bool PlotPainter::toFreeCorner() {
   const auto crossing = [this](const Vec2& low, const Vec2& high) { return pointsIn(low, high); };
-  if (legend_.toFreeCorner(inner_.low, inner_.high, crossing)) return;
+  return legend_.toFreeCorner(inner_.low, inner_.high, crossing);
+}
+
+/// False where they would leave too little of the axes.
+bool PlotPainter::toRows() {
   const double em = plot_.textSize * viewport_.scale;
   const double left = plot_.area[0] * viewport_.scale + viewport_.offset.x();
   const double top = plot_.area[1] * viewport_.scale + viewport_.offset.y();
   const double right = left + plot_.area[2] * viewport_.scale;
-  const auto toRows = [&] {
+  const auto place = [&] {
     return legend_.toRows(left + 0.6 * em, right - 0.6 * em, 0.5 * (inner_.low.x() + inner_.high.x()),
                           top + (plot_.title.empty() ? 0.35 : 2.0) * em);
   };
-  legendHeight_ = toRows() / viewport_.scale;
-  if (legendHeight_ + kLeastAxes * plot_.area[3] <= (inner_.high.y() - inner_.low.y()) / viewport_.scale) {
-    makeAxes(); // fewer ticks
-    layOut();
-    static_cast<void>(toRows()); // the middle of these axes
-    return;
-  }
-  legendHeight_ = 0.0;
-  legend_.toBestCorner(inner_.low, inner_.high, crossing);
+  const double height = place() / viewport_.scale;
+  if (height + kLeastAxes * plot_.area[3] > (inner_.high.y() - inner_.low.y()) / viewport_.scale)
+    return false;
+  legendHeight_ = height;
+  makeAxes(); // fewer ticks
+  layOut();
+  static_cast<void>(place()); // the middle of these axes
+  return true;
 }
 
 /// How many pieces of the curves show themselves in a rectangle of the output, in whichever frame: with their
@@ -157,7 +180,7 @@ std::size_t PlotPainter::pointsIn(const Vec2& low, const Vec2& high) const {
   for (const PlotData::Points* points : curves_) {
     std::optional<Vec2> before;
     for (const PlotData::Point& point : *points) {
-      const std::optional<Vec2> at = reached(point);
+      const std::optional<Vec2> at = reached(place(point));
       if (at && crosses(before.value_or(*at), *at, from, to)) ++count;
       before = at;
     }
@@ -165,8 +188,33 @@ std::size_t PlotPainter::pointsIn(const Vec2& low, const Vec2& high) const {
   return count;
 }
 
-/// Leaves room for what stands around the axes.
+/// Leaves room for what stands around the axes. Of numbers that would run into each other there are fewer.
 void PlotPainter::layOut() {
+  placeAxes();
+  while (columns_ > kLeastTicks && numbersTouch()) {
+    xTicks_ = x_.ticks(--columns_);
+    placeAxes();
+  }
+  if (xTicks_.size() > 2 && numbersTouch()) {
+    xTicks_.erase(xTicks_.begin() + 1, xTicks_.end() - 1);
+    placeAxes();
+  }
+}
+
+/// Whether two numbers of the horizontal axis are too near to be told apart.
+bool PlotPainter::numbersTouch() const {
+  const double width = (inner_.high.x() - inner_.low.x()) / viewport_.scale;
+  double end = -std::numeric_limits<double>::infinity();
+  for (const Axis::Tick& tick : xTicks_) {
+    const double half = 0.5 * texts_.measure(tick.label, textLook(NinePosition::Top, plot_.textSize)).x();
+    const double at = x_.place(tick.value) * width;
+    if (at - half < end + kBetween * plot_.textSize) return true;
+    end = at + half;
+  }
+  return false;
+}
+
+void PlotPainter::placeAxes() {
   const double em = plot_.textSize;
   double widest = 0.0;
   for (const Axis::Tick& tick : yTicks_)
@@ -192,9 +240,22 @@ Vec2 PlotPainter::place(const PlotData::Point& point) const {
           inner_.high.y() - y_.place(point.y) * (inner_.high.y() - inner_.low.y())};
 }
 
-/// Where a curve goes for a point: to its place, or towards it far enough to be clipped. Nothing at a gap.
-std::optional<Vec2> PlotPainter::reached(const PlotData::Point& point) const {
-  const Vec2 at = place(point);
+/// Where a curve is between a frame and the next: on the straight line that it takes from point to point. A
+/// coordinate that the next frame does not have stays where it is.
+Vec2 PlotPainter::between(std::size_t curve, std::size_t frame, double fraction) const {
+  const PlotData::Points& points = *curves_[curve];
+  if (frame >= points.size()) return Vec2::Constant(std::nan(""));
+  Vec2 at = place(points[frame]);
+  if (!(fraction > 0.0) || frame + 1 >= points.size()) return at;
+  const Vec2 next = place(points[frame + 1]);
+  for (int axis = 0; axis < 2; ++axis)
+    if (std::isfinite(next[axis])) at[axis] += (next[axis] - at[axis]) * fraction;
+  return at;
+}
+
+/// Where a curve goes for a point at this place: there, or towards it far enough to be clipped. Nothing at a
+/// gap.
+std::optional<Vec2> PlotPainter::reached(const Vec2& at) const {
   if (!std::isfinite(at.x()) || !std::isfinite(at.y())) return std::nullopt;
   const Vec2 reach = Vec2::Constant(4.0 * length(inner_.high - inner_.low));
   return Vec2(at.cwiseMax(inner_.low - reach).cwiseMin(inner_.high + reach));
@@ -268,7 +329,7 @@ void PlotPainter::grow(Grown& grown, std::size_t curve, std::size_t frames) cons
   const std::size_t end = std::min(frames, points.size());
   if (end < grown.frames) grown = Grown{.open = PathSimplifier(kTolerance)};
   for (; grown.frames < end; ++grown.frames) {
-    if (const std::optional<Vec2> at = reached(points[grown.frames])) {
+    if (const std::optional<Vec2> at = reached(place(points[grown.frames]))) {
       grown.open.add(*at);
       continue;
     }
@@ -278,16 +339,23 @@ void PlotPainter::grow(Grown& grown, std::size_t curve, std::size_t frames) cons
   }
 }
 
-void PlotPainter::drawCurve(Picture& picture, std::size_t curve, std::size_t frames,
+void PlotPainter::drawCurve(Picture& picture, std::size_t curve, std::size_t frames, double fraction,
                             std::int32_t clip) const {
   Grown& grown = grown_[curve];
   grow(grown, curve, frames);
   Pen pen(picture, plot_.width * viewport_.scale, bytes(plot_.curves[curve].color), clip);
   for (const std::vector<Vec2>& run : grown.runs) pen.path(run);
+  if (fraction > 0.0 && frames > 0) {
+    if (const std::optional<Vec2> end = reached(between(curve, frames - 1, fraction))) {
+      PathSimplifier open = grown.open; // without the end, which is another one in the next picture
+      open.add(*end);
+      return pen.path(open.path());
+    }
+  }
   pen.path(grown.open.path());
 }
 
-void PlotPainter::draw(Picture& picture, std::span<const std::int64_t> frames) const {
+void PlotPainter::draw(Picture& picture, std::span<const std::int64_t> frames, double fraction) const {
   append(picture, still_);
   const auto clip = static_cast<std::int32_t>(picture.clips.size());
   // A line on an axis is seen in its full width.
@@ -297,30 +365,38 @@ void PlotPainter::draw(Picture& picture, std::span<const std::int64_t> frames) c
                            static_cast<int>(inner_.high.y()) + edge});
   for (std::size_t curve = 0; curve < curves_.size(); ++curve)
     drawCurve(picture, curve,
-              plot_.whole ? curves_[curve]->size() : static_cast<std::size_t>(frames[curve]) + 1, clip);
-  if (plot_.cursor) drawPresent(picture, frames, clip);
+              plot_.whole ? curves_[curve]->size() : static_cast<std::size_t>(frames[curve]) + 1,
+              plot_.whole ? 0.0 : fraction, clip);
+  if (plot_.cursor) drawPresent(picture, frames, fraction, clip);
   if (plot_.legend) legend_.draw(picture);
 }
 
-/// A disc at each curve's present, over a line at the latest of them where they are over time.
-void PlotPainter::drawPresent(Picture& picture, std::span<const std::int64_t> frames,
+/// A disc at each curve's present, over a line at the latest of them where they are over time. A disc whose
+/// middle is within the axes is whole, also at their edge; the plot's area alone cuts one that is very large.
+void PlotPainter::drawPresent(Picture& picture, std::span<const std::int64_t> frames, double fraction,
                               std::int32_t clip) const {
   const double line = std::max(std::round(0.08 * plot_.textSize * viewport_.scale), 1.0);
   std::vector<Vec2> discs;
   Extent x;
   for (std::size_t curve = 0; curve < curves_.size(); ++curve) {
-    const PlotData::Points& points = *curves_[curve];
-    const auto present = static_cast<std::size_t>(frames[curve]);
-    discs.push_back(place(present < points.size() ? points[present] : PlotData::Point{std::nan(""), 0.0}));
+    discs.push_back(between(curve, static_cast<std::size_t>(frames[curve]), fraction));
     x.add(discs.back().x(), false);
   }
   if (plot_.overTime && std::isfinite(x.greatest)) {
     const double at = sharp(x.greatest, line);
     Pen(picture, line, faded(bytes(plot_.ink), 0.5), clip).line({at, inner_.low.y()}, {at, inner_.high.y()});
   }
+  const auto area = static_cast<std::int32_t>(picture.clips.size());
+  const Vec2 corner = Vec2(plot_.area[0], plot_.area[1]) * viewport_.scale + viewport_.offset;
+  const Vec2 end = corner + Vec2(plot_.area[2], plot_.area[3]) * viewport_.scale;
+  const PixelRect& pane = viewport_.clip;
+  picture.clips.push_back({std::max(pane.left, static_cast<int>(std::floor(corner.x()))),
+                           std::max(pane.top, static_cast<int>(std::floor(corner.y()))),
+                           std::min(pane.right, static_cast<int>(std::ceil(end.x()))),
+                           std::min(pane.bottom, static_cast<int>(std::ceil(end.y())))});
   for (std::size_t curve = 0; curve < curves_.size(); ++curve) {
-    if (discs[curve].allFinite())
-      Pen(picture, line, bytes(plot_.curves[curve].color), clip)
+    if (isWithin(discs[curve], inner_.low, inner_.high))
+      Pen(picture, line, bytes(plot_.curves[curve].color), area)
           .disc(discs[curve], kDisc * plot_.width * viewport_.scale);
   }
 }

@@ -22,8 +22,9 @@ public:
   PlotPainter(const Plot& plot, std::vector<const PlotData::Points*> curves, const Viewport& viewport,
               const TextPainter& texts);
 
-  /// The plot with these frames as the present of each curve.
-  void draw(Picture& picture, std::span<const std::int64_t> frames) const;
+  /// The plot with these frames as the present of each curve, or what is `fraction` (0 … 1) of the way from
+  /// them to the next.
+  void draw(Picture& picture, std::span<const std::int64_t> frames, double fraction = 0.0) const;
 
 private:
   struct Inner {
@@ -39,14 +40,21 @@ private:
 
   void makeAxes();
   void layOut();
+  void placeAxes();
+  [[nodiscard]] bool numbersTouch() const;
   void placeLegend();
+  bool toFreeCorner();
+  bool toRows();
   [[nodiscard]] std::size_t pointsIn(const Vec2& low, const Vec2& high) const;
   void drawFrame(Picture& picture) const;
   void grow(Grown& grown, std::size_t curve, std::size_t frames) const;
-  void drawCurve(Picture& picture, std::size_t curve, std::size_t frames, std::int32_t clip) const;
-  void drawPresent(Picture& picture, std::span<const std::int64_t> frames, std::int32_t clip) const;
+  [[nodiscard]] Vec2 between(std::size_t curve, std::size_t frame, double fraction) const;
+  void drawCurve(Picture& picture, std::size_t curve, std::size_t frames, double fraction,
+                 std::int32_t clip) const;
+  void drawPresent(Picture& picture, std::span<const std::int64_t> frames, double fraction,
+                   std::int32_t clip) const;
   [[nodiscard]] Vec2 place(const PlotData::Point& point) const;
-  [[nodiscard]] std::optional<Vec2> reached(const PlotData::Point& point) const;
+  [[nodiscard]] std::optional<Vec2> reached(const Vec2& at) const;
   [[nodiscard]] TextLook textLook(NinePosition anchor, double size) const;
   void text(Picture& picture, const std::string& text, const Vec2& outputPoint, NinePosition anchor,
             double size) const;
@@ -58,6 +66,7 @@ private:
   TextPainter texts_;
   Axis x_{0.0, 1.0, false};
   Axis y_{0.0, 1.0, false};
+  int columns_ = 0; ///< ticks that the horizontal axis is asked for
   std::vector<Axis::Tick> xTicks_, yTicks_;
   Inner inner_{};
   PlotLegend legend_;

@@ -55,7 +55,7 @@ PlotSet::PlotSet(const Scene& scene, const Viewport& viewport, const TextPainter
 
 PlotSet::~PlotSet() = default;
 
-void PlotSet::draw(Picture& picture, std::span<const std::int64_t> frames) const {
+void PlotSet::draw(Picture& picture, std::span<const std::int64_t> frames, double fraction) const {
   if (runs_ == nullptr) return;
   if (made_ == nullptr) {
     auto made = std::make_unique<Made>();
@@ -73,7 +73,7 @@ void PlotSet::draw(Picture& picture, std::span<const std::int64_t> frames) const
   for (std::size_t i = 0; i < made_->painters.size(); ++i) {
     presents.clear();
     for (const std::size_t part : runs_->plots[i].panels) presents.push_back(frames[part]);
-    made_->painters[i].draw(picture, presents);
+    made_->painters[i].draw(picture, presents, fraction);
   }
 }
 

@@ -20,8 +20,9 @@ public:
   PlotSet(const PlotSet&) = delete;
   PlotSet& operator=(const PlotSet&) = delete;
 
-  /// All plots with these frames as the present: of the scene's world, or of each panel's.
-  void draw(Picture& picture, std::span<const std::int64_t> frames) const;
+  /// All plots with these frames as the present: of the scene's world, or of each panel's; or with what is
+  /// `fraction` (0 … 1) of the way from them to the next.
+  void draw(Picture& picture, std::span<const std::int64_t> frames, double fraction = 0.0) const;
 
 private:
   struct Runs; ///< what the values come from

@@ -221,7 +221,7 @@ void SceneSource::paint(Picture& picture) const {
   overlays_.paint(picture, OverlayLayer::Front, overlaid);
   if (freeze != nullptr && pauseOf(*freeze).highlight == Highlight::Dim)
     drawOverVeil(picture, *freeze, overlaid);
-  plots_.draw(picture, {&now.frame, 1});
+  plots_.draw(picture, {&now.frame, 1}, shot_.moment.fraction);
   texts_.draw(picture, now, videoTime(), painter_.viewport());
 }
 

@@ -4,6 +4,7 @@
 #include "src/scene/limits.h"
 #include "src/scene/nearest.h"
 #include "src/scene/quote.h"
+#include "src/scene/scene_keys.h"
 #include "src/scene/text_file.h"
 
 #include <algorithm>
@@ -22,8 +23,17 @@ constexpr std::string_view kLabel = "[[bodies]]";
 /// Which numbers a shape cannot be without, as bits of BodyColumn::mask().
 constexpr std::uint32_t kCircleNeeds = 0x103U;
 constexpr std::uint32_t kRectangleNeeds = 0x00FU;
+/// Those that are one key of [[body]]: center or position, size, radius.
+constexpr std::array kKeysNumbers{0x003U, 0x00CU, 0x100U};
 constexpr std::array<std::pair<std::uint32_t, std::string_view>, 5> kNeeded{
     {{0x001U, "x"}, {0x002U, "y"}, {0x004U, "width"}, {0x008U, "height"}, {0x100U, "radius"}}};
+
+/// Whether it may stand in [[bodies]].
+bool isKey(std::string_view key) {
+  return std::ranges::any_of(sceneKeysNamed(key), [](const SceneKey* candidate) {
+    return candidate->table == "bodies" || candidate->table == "body";
+  });
+}
 
 /// Bodies from the rows of a CSV file. A row's numbers are read on the spot. The rest of it is read as a
 /// [[body]] of a scene is, once for all rows that agree in it, so that a hundred thousand bodies load at
@@ -54,6 +64,7 @@ private:
     Body body;
     BodyNumbers numbers; ///< those of [[bodies]] itself
     bool right = false;
+    bool shapeKnown = false; ///< what belongs to a shape can be told
   };
   struct Cell {
     std::string text;
@@ -172,6 +183,7 @@ BodyTable::Kind BodyTable::readKind(bool ofRow) {
     }
   };
   for (const TomlEntry& entry : *table_.table()) {
+    if (!isKey(entry.key)) continue; // parseBodies() has told so
     put(entry);
     if (!ofRow) continue;
     entries.back().line = entries.back().value.line = line;
@@ -191,6 +203,7 @@ BodyTable::Kind BodyTable::readKind(bool ofRow) {
   const auto* word =
       shapeEntry == entries.end() ? nullptr : std::get_if<std::string>(&shapeEntry->value.data);
   const bool rectangle = word != nullptr && *word == "rectangle";
+  const bool shapeKnown = shapeEntry == entries.end() || rectangle || (word != nullptr && *word == "circle");
   const bool mixed = has("shape");
   const auto number = [&](double value) { return TomlValue{value, line, column}; };
   const auto pair = [&] { return TomlValue{TomlValue::Array{number(1.0), number(1.0)}, line, column}; };
@@ -210,6 +223,7 @@ BodyTable::Kind BodyTable::readKind(bool ofRow) {
   settle("size", rectangle, 0x00CU, pair());
 
   Kind kind;
+  kind.shapeKnown = shapeKnown;
   if (ofRow) std::swap(builder_.errors, errors_); // what is wrong now is wrong in the table
   const std::size_t before = builder_.errors.count();
   const TableReader reader(merged, {"bodies", "body"}, std::string(kLabel), builder_.errors);
@@ -227,7 +241,8 @@ const BodyTable::Kind& BodyTable::kindOfRow() {
     key_ += '\0'; // parseBodies() has refused texts that hold it
   }
   const auto found = kinds_.find(key_);
-  return found != kinds_.end() ? found->second : kinds_.emplace(key_, readKind(true)).first->second;
+  if (found != kinds_.end() && found->second.right) return found->second;
+  return kinds_.insert_or_assign(key_, readKind(true)).first->second; // what is wrong is told in every row
 }
 
 /// The row's numbers over those of [[bodies]]. False when one that the body needs is nowhere, and no row can
@@ -239,7 +254,7 @@ bool BodyTable::readNumbers(const Kind& kind, BodyNumbers& numbers) {
     const Cell& cell = row_[i];
     if (column.mask() == 0 || cell.text.empty()) continue;
     given |= column.mask();
-    if (column.shape && *column.shape != kind.body.shape) {
+    if (column.shape && kind.shapeKnown && *column.shape != kind.body.shape) {
       const bool circle = kind.body.shape == Shape::Circle;
       errors_.add(cell.line, cell.column,
                   fmt::format("{} belongs to a {}, but this shape is a {}", described(column),
@@ -274,8 +289,10 @@ bool BodyTable::readNumbers(const Kind& kind, BodyNumbers& numbers) {
     }
     column.put(numbers, all);
   }
-  const std::uint32_t missing = (kind.body.shape == Shape::Circle ? kCircleNeeds : kRectangleNeeds) & ~given;
-  if (missing == 0) return true;
+  std::uint32_t missing = (kind.body.shape == Shape::Circle ? kCircleNeeds : kRectangleNeeds) & ~given;
+  for (const std::uint32_t key : kKeysNumbers)
+    if ((columnMask_ & key) == 0) missing &= ~key; // readKind() has told that nothing gives the key
+  if (missing == 0 || !kind.shapeKnown) return true;
   std::string names;
   for (const auto& [bit, name] : kNeeded) {
     if ((missing & bit) != 0) names += fmt::format("{}'{}'", names.empty() ? "" : ", ", name);
@@ -304,7 +321,7 @@ bool BodyTable::addBody() {
   const auto id = static_cast<std::uint32_t>(builder_.scene.world.bodies.size());
   readName(id);
   BodyNumbers numbers = kind.numbers;
-  if (kind.right && !readNumbers(kind, numbers)) return false;
+  if (!readNumbers(kind, numbers)) return false;
   Body body = placed(builder_.view, numbers, kind.body);
   body.id = id;
   if (!isFinite(body))

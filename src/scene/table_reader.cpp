@@ -1,5 +1,6 @@
 #include "src/scene/table_reader.h"
 
+#include "src/scene/meant_key.h"
 #include "src/scene/nearest.h"
 #include "src/scene/quote.h"
 #include "src/scene/scene_keys.h"
@@ -215,8 +216,11 @@ void TableReader::reportUnknownKeys() const {
   }
 }
 
-/// Where the key belongs, when it is another table's; else the nearest key of this one; else all of its keys.
+/// The key of this table that is called so elsewhere; else where the key belongs, when it is another table's;
+/// else the nearest key of this one; else all of its keys.
 std::string TableReader::unknownKeyHint(const std::string& key) const {
+  if (const std::string_view meant = meantKey(key, tables_); !meant.empty())
+    return fmt::format("did you mean '{}{}'?", prefix_, meant);
   std::string owners;
   std::vector<std::string_view> keys;
   for (const SceneKey& candidate : sceneKeyTable()) {
