@@ -188,6 +188,23 @@ TEST(Film, ErrorsNameThePlaceTheKeyAndTheLimit) {
                             "exist beside the scene")));
 }
 
+TEST(Film, FadesLeaveAMomentAtWhichThePictureIsThere) {
+  EXPECT_THAT(errorsOf("duration = 4\n[timeline]\nfade_in = 2\nfade_out = 2\n"), ElementsAre());
+  EXPECT_THAT(
+      errorsOf("duration = 4\n[timeline]\nfade_in = 2\nfade_out = 3\n"),
+      ElementsAre("scene.toml:4:12: error: 'fade_out' in [timeline] is 3 s and 'fade_in' 2 s, but the "
+                  "video lasts only 4 s: the picture would never be there in full"));
+  EXPECT_THAT(
+      errorsOf("duration = 4\n[timeline]\nfade_in = 5\n"),
+      ElementsAre("scene.toml:3:11: error: 'fade_in' in [timeline] is 5 s, but the video lasts only 4 s: "
+                  "the picture would never be there in full"));
+  // It is the video that counts, here with a pause.
+  EXPECT_THAT(errorsOf("duration = 4\n[timeline]\nfade_in = 5\n[[pause]]\nat = 1\nfor = 1\n"), ElementsAre());
+  SceneOverrides overrides;
+  overrides.duration = 1.0;
+  EXPECT_THAT(errorsOf("duration = 4\n[timeline]\nfade_in = 2\nfade_out = 2\n", overrides), ElementsAre());
+}
+
 TEST(Film, AShorterDurationLeavesOutWhatLiesBehindIt) {
   SceneOverrides overrides;
   overrides.duration = 1.0;
