@@ -232,7 +232,10 @@ private:
       printNotice(fmt::format("{} holds no sound", quoted(options_.out.filename())));
     output_->setTracks(tracks);
     const std::int64_t bytes = output_->join(chunks, plan_.frames());
-    if (sidecar_) sidecar_->write(tracks);
+    if (sidecar_)
+      sidecar_->write(tracks);
+    else
+      Sidecar::removeStale(options_.out);
     printNotice(output_->notice().substr(said_.size())); // what only the whole told
     return bytes;
   }
