@@ -233,6 +233,29 @@ TEST(Tracks, AnimationsHaveTheSidecarAndPicturesHaveNone) {
   EXPECT_THAT(dir.names("f"), ElementsAre("000.png", "001.png", "002.png"));
 }
 
+TEST(Tracks, WhatAnOutputCannotHoldIsToldInOneLine) {
+  const TempDir dir;
+  const std::string all =
+      dir.write("all.toml", std::string(kCaptionScene) + "[sound]\nclicks = true\n").string();
+  const std::string captions =
+      dir.write("captions.toml", "duration = 1\n[frame]\nsize = [32, 32]\n[[caption]]\n"
+                                 "text = \"a\"\nfrom = 0\nto = 1\n")
+          .string();
+  const auto told = [&](const std::string& scene, const std::string& name) {
+    const ProcessResult result =
+        offstage({"render", scene, "-o", (dir / name).string(), "--to", "0.1", "--fps", "50"});
+    EXPECT_EQ(result.status, 0) << name;
+    return result.err;
+  };
+  EXPECT_EQ(told(all, "x.mkv"), "");
+  EXPECT_EQ(told(all, "x.gif"), "offstage: 'x.gif' holds no sound or chapters\n");
+  EXPECT_EQ(told(all, "x.apng"), "offstage: 'x.apng' holds no sound or chapters\n");
+  EXPECT_EQ(told(all, "x%d.png"), "offstage: 'x%d.png' holds no sound, captions or chapters\n");
+  EXPECT_EQ(told(all, "x.raw"), "offstage: 'x.raw' holds no sound, captions or chapters\n");
+  EXPECT_EQ(told(captions, "x.raw"), "offstage: 'x.raw' holds no captions\n");
+  EXPECT_EQ(told(captions, "x.gif"), "") << "they are in x.vtt";
+}
+
 /// A ball that flies between two walls: it starts 120 px from the right one at 100 px/s, and is back after 2
 /// · 140 px.
 constexpr const char* kClickScene = R"(duration = 4.5
