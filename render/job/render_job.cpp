@@ -99,9 +99,9 @@ void requireOutput(const RenderOptions& options) {
   // What waits there goes with the folder when all is made.
   const std::filesystem::path parts = Parts::folderFor(options.out);
   for (const OutputPlace& output : {hash, poster}) {
-    requireApart(output, "the folder of the parts,", parts);
+    requireApart(output, "the folder of the parts", parts);
     if (!output.out.empty())
-      requireApart({output.option, placeOf(output.out).parent_path()}, "a folder that is removed,", parts);
+      requireApart({output.option, placeOf(output.out).parent_path()}, "a folder that is removed", parts);
   }
 }
 
