@@ -140,12 +140,12 @@ void parsePoster(SceneBuilder& builder, const TomlValue& table) {
   if (reader.has("at")) builder.scene.timeline.posterWhere = locationOf(builder.scene, *reader.find("at"));
 }
 
-/// Fades that meet, or are cut by the video's end, never let the whole picture be seen. A shorter duration
-/// of the command line may do so: it asks for a glance.
+/// Fades that meet, or are cut by the video's end, never let the whole picture be seen. A length that
+/// the command line gives may do so.
 void requireRoomForFades(SceneBuilder& builder, const TomlValue& table) {
   const Timeline& timeline = builder.scene.timeline;
   const double video = builder.videoSeconds;
-  if (timeline.cut || timeline.fadeIn + timeline.fadeOut <= video + 1e-9) return;
+  if (builder.lengthIsGiven || timeline.fadeIn + timeline.fadeOut <= video + 1e-9) return;
   const TableReader reader(table, {"timeline"}, "[timeline]", builder.errors);
   const bool out = timeline.fadeOut > 0.0;
   std::string what = fmt::format("is {} s", numberText(out ? timeline.fadeOut : timeline.fadeIn));
