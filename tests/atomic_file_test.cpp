@@ -93,7 +93,9 @@ TEST(AtomicFile, RefusesWhatCannotBeWrittenWithTheReason) {
   };
   EXPECT_EQ(openError(""), "2: cannot write a file without a name");
   EXPECT_EQ(openError(dir.path()), "2: cannot write '" + dir.path().native() + "': it is a folder");
-  EXPECT_EQ(openError(dir / "x/"), text("x/") + "it is a folder");
+  EXPECT_EQ(openError(dir / "x/"), text("x/") + "a name that ends in / names a folder");
+  fs::create_directory(dir / "d");
+  EXPECT_EQ(openError(dir / "d/"), text("d/") + "it is a folder");
   EXPECT_EQ(openError(dir / "none/a"),
             text("none/a") + "the folder '" + (dir / "none").native() + "' does not exist");
   EXPECT_EQ(openError(dir / "file/a"),
@@ -105,7 +107,7 @@ TEST(AtomicFile, RefusesWhatCannotBeWrittenWithTheReason) {
   EXPECT_THAT(openError(dir / "fifo"), StartsWith(text("fifo") + "it is a device, a pipe or a socket"));
   EXPECT_THAT(openError("/dev/null"), StartsWith("2: cannot write '/dev/null': it is a device"));
   EXPECT_EQ(openError(dir / std::string(256, 'n')), text(std::string(256, 'n')) + "the name is too long");
-  EXPECT_THAT(dir.names(), ElementsAre("fifo", "file", "link", "loop")) << "nothing left behind";
+  EXPECT_THAT(dir.names(), ElementsAre("d", "fifo", "file", "link", "loop")) << "nothing left behind";
 }
 
 TEST(AtomicFile, RefusesFoldersAndFilesWithoutPermission) {

@@ -152,6 +152,41 @@ TEST(Poster, IsDrawnAtItsMomentInItsResolution) {
   EXPECT_TRUE(std::filesystem::exists(dir / "x.mp4"));
 }
 
+TEST(Poster, ShowsTheMiddleOfWhatIsRenderedOrWhatTheSceneSays) {
+  const TempDir dir;
+  const std::string world = "duration = 4\n[frame]\nsize = [64, 48]\n[[body]]\ncenter = [8, 24]\nradius = 6\n"
+                            "velocity = [12, 0]\n[world]\ngravity = [0, 0]\n";
+  const std::string scene = dir.write("scene.toml", world).string();
+  const std::string named = dir.write("named.toml", world + "[poster]\nat = 3\n").string();
+  const std::string out = (dir / "p.png").string();
+  const auto posterIs = [&](const std::string& file, const std::vector<std::string>& options,
+                            const std::string& at, const std::string& told) {
+    std::vector<std::string> command{"render", file, "--poster", out};
+    command.insert(command.end(), options.begin(), options.end());
+    const ProcessResult result = offstage(command);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.err, told);
+    EXPECT_EQ(offstage({"still", scene, "--at", at, "-o", (dir / "s.png").string()}).status, 0);
+    EXPECT_EQ(readFile(out), readFile(dir / "s.png")) << at;
+  };
+  posterIs(scene, {}, "2", "");
+  posterIs(scene, {"--to", "1"}, "0.5", "");
+  posterIs(scene, {"--from", "3"}, "3.5", "");
+  posterIs(scene, {"--from", "1", "--to", "2", "-o", (dir / "x.mp4").string()}, "1.5", "");
+  posterIs(scene, {"--duration", "1"}, "0.5", "");
+  posterIs(named, {}, "3", "");
+  posterIs(named, {"--from", "2"}, "3", "");
+  posterIs(named, {"--to", "1"}, "3",
+           "offstage: the poster shows 3 s, as [poster] says, which is not within the rendered 0 … 1 s\n");
+  posterIs(named, {"--duration", "1"}, "0.5",
+           "offstage: the video ends at 1 s, before the 3 s of [poster]: the poster shows 0.5 s\n");
+  EXPECT_EQ(offstage({"render", named, "--poster", out, "--to", "9"}).status, 2);
+
+  ASSERT_EQ(offstage({"bundle", scene, "-o", (dir / "b").string(), "--to", "1"}).status, 0);
+  ASSERT_EQ(offstage({"render", scene, "--poster", (dir / "s.jpg").string(), "--to", "1"}).status, 0);
+  EXPECT_EQ(readFile(dir / "b/scene.jpg"), readFile(dir / "s.jpg"));
+}
+
 /// A program's posters are those of the scene that shows the same: in the middle of the video, in any size.
 TEST(Poster, OfAProgramIsThatOfItsScene) {
   const TempDir dir;

@@ -60,6 +60,46 @@ TEST(Film, ACardStandsWithinItsSection) {
   EXPECT_EQ(film.moment(91), (Moment{1, 0.0}));
 }
 
+TEST(Film, NoSectionStartsWhileATitleCardStands) {
+  const auto two = [](const std::string& first, const std::string& second) {
+    return "duration = 4\n[[section]]\ntitle = \"A\"\n" + first + "\n[[section]]\ntitle = \"B\"\n" + second +
+           "\n";
+  };
+  constexpr const char* kError =
+      "scene.toml:6:1: error: 'start' in [[section]] is 1 s, but the title card of \"A\" stands until 2.5 s";
+  EXPECT_THAT(errorsOf(two("start = 0.5\ncard = 2", "start = 1\ncard = 2")), ElementsAre(kError));
+  EXPECT_THAT(errorsOf(two("start = 0.5\ncard = 2", "start = 1")), ElementsAre(kError));
+  // In the order of time, not of the file.
+  EXPECT_THAT(
+      errorsOf(two("start = 0.2\ncard = 1", "start = 0.1\ncard = 0.2")),
+      ElementsAre("scene.toml:2:1: error: 'start' in [[section]] is 0.2 s, but the title card of \"B\" "
+                  "stands until 0.3 s"));
+  EXPECT_THAT(errorsOf(two("start = 0.1\ncard = 0.2", "start = 0.3\ncard = 1")), ElementsAre());
+  EXPECT_THAT(errorsOf(two("start = 0.1\ncard = 0.2", "start = 0.3")), ElementsAre());
+}
+
+TEST(Film, ATitleCardMayStandAtTheVideosEndButNotBehindIt) {
+  const auto at = [](const std::string& start) {
+    return "duration = 2\n[[section]]\ntitle = \"A\"\nstart = " + start + "\ncard = 1\n";
+  };
+  EXPECT_DOUBLE_EQ(filmOf(at("2")).seconds, 3.0);
+  EXPECT_THAT(errorsOf(at("5")),
+              ElementsAre("scene.toml:2:1: error: 'start' in [[section]] is 5 s, but the video ends at 2 s"));
+}
+
+TEST(Film, ANarrationCanMoveASectionOutOfATitleCard) {
+  Timeline timeline;
+  timeline.sections.resize(2);
+  timeline.sections[0].title = "A";
+  timeline.sections[0].card = 2.0;
+  timeline.sections[0].narration = SoundFile{"x.wav", {}, ""};
+  timeline.sections[1].title = "B";
+  timeline.sections[1].start = 1.0;
+  const Clock clock = Clock::fixed(60.0, 240);
+  EXPECT_DOUBLE_EQ(makeFilm(timeline, clock, std::vector<double>{2.0}, "T").chapters[1].start, 2.0);
+  EXPECT_THROW(makeFilm(timeline, clock, std::vector<double>{1.5}, "T"), SceneError);
+}
+
 TEST(Film, ASectionLastsAsLongAsItsNarrationAndMovesThoseAfterIt) {
   Timeline timeline;
   timeline.sections.resize(3);
@@ -146,6 +186,23 @@ TEST(Film, ErrorsNameThePlaceTheKeyAndTheLimit) {
       errorsOf("[narration]\nfile = \"gone.wav\"\n"),
       ElementsAre(HasSubstr("2:8: error: 'file' in [narration] names the file \"gone.wav\", which does not "
                             "exist beside the scene")));
+}
+
+TEST(Film, FadesLeaveAMomentAtWhichThePictureIsThere) {
+  EXPECT_THAT(errorsOf("duration = 4\n[timeline]\nfade_in = 2\nfade_out = 2\n"), ElementsAre());
+  EXPECT_THAT(
+      errorsOf("duration = 4\n[timeline]\nfade_in = 2\nfade_out = 3\n"),
+      ElementsAre("scene.toml:4:12: error: 'fade_out' in [timeline] is 3 s and 'fade_in' 2 s, but the "
+                  "video lasts only 4 s: the picture would never be there in full"));
+  EXPECT_THAT(
+      errorsOf("duration = 4\n[timeline]\nfade_in = 5\n"),
+      ElementsAre("scene.toml:3:11: error: 'fade_in' in [timeline] is 5 s, but the video lasts only 4 s: "
+                  "the picture would never be there in full"));
+  // It is the video that counts, here with a pause.
+  EXPECT_THAT(errorsOf("duration = 4\n[timeline]\nfade_in = 5\n[[pause]]\nat = 1\nfor = 1\n"), ElementsAre());
+  SceneOverrides overrides;
+  overrides.duration = 1.0;
+  EXPECT_THAT(errorsOf("duration = 4\n[timeline]\nfade_in = 2\nfade_out = 2\n", overrides), ElementsAre());
 }
 
 TEST(Film, AShorterDurationLeavesOutWhatLiesBehindIt) {

@@ -134,6 +134,27 @@ TEST(OutputPlaces, WhatAVideoIsMadeFromIsNotReplacedByIt) {
   EXPECT_EQ(readFile(dir / "told.mp4"), told);
 }
 
+TEST(OutputPlaces, AMessageNamesBothThingsAndTheirPlace) {
+  const TempDir dir;
+  dir.write("s.toml", kBall);
+  ASSERT_EQ(renderIn(dir, {"s.toml", "--poster", "ball.png"}).status, 0);
+  dir.write("image.toml", std::string(kBall) + "fill = { image = \"ball.png\" }\n");
+  EXPECT_EQ(renderIn(dir, {"image.toml", "--poster", "ball.png"}).err,
+            "offstage: error: --poster and an image of the scene cannot both be 'ball.png'\n");
+  EXPECT_EQ(renderIn(dir, {"s.toml", "-o", "x.mp4", "--hash", "x.mp4.parts"}).err,
+            "offstage: error: --hash and the folder of the parts cannot both be 'x.mp4.parts'\n");
+}
+
+TEST(OutputPlaces, AStillsEndingMayBeUpperCase) {
+  const TempDir dir;
+  dir.write("s.toml", kBall);
+  ProcessOptions options;
+  options.directory = dir.path();
+  const ProcessResult result = offstage({"still", "s.toml", "--at", "0", "-o", "x.PNG"}, options);
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(std::filesystem::exists(dir / "x.PNG"));
+}
+
 TEST(OutputPlaces, WhatKilledRunsLeftOfABareNameIsRemoved) {
   const TempDir dir;
   dir.write("s.toml", kBall);

@@ -70,7 +70,7 @@ TEST(Output, ListsTheEndingsThatThereAre) {
   EXPECT_EQ(makeError("x.avi"), "2: cannot write .avi files ('x.avi'); there are " + list);
   EXPECT_EQ(makeError("x"), "2: the name 'x' has no ending that tells what to write: " + list);
   EXPECT_EQ(makeError(""), "2: the name '' has no ending that tells what to write: " + list);
-  EXPECT_EQ(makeError("x.mp4/"), "2: cannot write 'x.mp4/': it is a folder");
+  EXPECT_EQ(makeError("x.mp4/"), "2: cannot write 'x.mp4/': a name that ends in / names a folder");
   EXPECT_EQ(makeError(".mp4"), "2: the name '.mp4' has no ending that tells what to write: " + list);
 }
 

@@ -182,6 +182,21 @@ TEST(Text, FadesInAndOut) {
   EXPECT_EQ(alphaAt(5.0), 0.0);
 }
 
+TEST(Text, DoesNotComeAfterTheVideosEnd) {
+  const auto from = [](const std::string& time, const std::string& more = "") {
+    return "duration = 2\n[[text]]\ntext = \"l\"\nplace = \"top\"\nfrom = " + time + "\n" + more;
+  };
+  EXPECT_THAT(errorsOf(from("2")), ::testing::IsEmpty());
+  EXPECT_THAT(
+      errorsOf(from("5")),
+      ::testing::ElementsAre("scene.toml:5:8: error: 'from' in [[text]] is 5 s, but the video ends at 2 s"));
+  // It is the video that counts, and a shorter one that somebody asks for leaves it out.
+  EXPECT_THAT(errorsOf(from("5", "[[pause]]\nat = 1\nfor = 4\n")), ::testing::IsEmpty());
+  SceneOverrides overrides;
+  overrides.duration = 1.0;
+  EXPECT_THAT(errorsOf(from("2"), overrides), ::testing::IsEmpty());
+}
+
 TEST(Text, FollowsItsBodyAndGoesWithIt) {
   const std::string scene =
       "duration = 2\n[world]\ngravity = [0, 0]\n[[body]]\nname = \"b\"\ncenter = [600, 100]\n"

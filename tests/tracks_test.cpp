@@ -156,6 +156,43 @@ TEST(Tracks, ASidecarThatSomebodyElseWroteIsNeverReplaced) {
   EXPECT_FALSE(std::filesystem::exists(dir / "x.mp4"));
 }
 
+TEST(Tracks, ASidecarGoesWithTheCaptions) {
+  const TempDir dir;
+  const std::string with = dir.write("with.toml", kCaptionScene).string();
+  const std::string without =
+      dir.write("without.toml", "duration = 0.1\n[frame]\nsize = [32, 32]\n").string();
+  const auto render = [&](const std::string& scene, const std::string& name,
+                          std::vector<std::string> more = {}) {
+    std::vector<std::string> command{"render", scene, "-o", (dir / name).string(), "--duration", "0.1"};
+    command.insert(command.end(), more.begin(), more.end());
+    const ProcessResult result = offstage(command);
+    EXPECT_EQ(result.status, 0) << result.err;
+  };
+  for (const std::string name : {"x.mp4", "x.gif"}) {
+    render(with, name);
+    ASSERT_TRUE(std::filesystem::exists(dir / "x.vtt")) << name;
+    render(without, name, {"--segment", "1/1"});
+    EXPECT_TRUE(std::filesystem::exists(dir / "x.vtt")) << name << ": the old video is still there";
+    ASSERT_EQ(offstage({"join", "-o", (dir / name).string(), without}).status, 0);
+    EXPECT_FALSE(std::filesystem::exists(dir / "x.vtt")) << name;
+  }
+  render(with, "x.mp4");
+  const std::string made = readFile(dir / "x.vtt");
+  render(without, "y.mp4"); // of another name
+  EXPECT_EQ(readFile(dir / "x.vtt"), made);
+  render(without, "x.mp4");
+  EXPECT_FALSE(std::filesystem::exists(dir / "x.vtt"));
+
+  dir.write("x.vtt", "WEBVTT\n\nmine");
+  dir.write("mine.vtt", made);
+  std::filesystem::create_symlink("mine.vtt", dir / "y.vtt");
+  render(without, "x.mp4");
+  render(without, "y.mp4");
+  EXPECT_EQ(readFile(dir / "x.vtt"), "WEBVTT\n\nmine");
+  EXPECT_TRUE(std::filesystem::is_symlink(dir / "y.vtt"));
+  EXPECT_EQ(readFile(dir / "mine.vtt"), made);
+}
+
 TEST(Tracks, ManyHugeAndTinyCaptionsAreHeld) {
   const TempDir dir;
   std::string text = "duration = 1\n[frame]\nsize = [32, 32]\n";
@@ -194,6 +231,29 @@ TEST(Tracks, AnimationsHaveTheSidecarAndPicturesHaveNone) {
   std::filesystem::create_directory(dir / "f");
   ASSERT_EQ(offstage({"render", scene, "-o", (dir / "f/%03d.png").string(), "--to", "0.05"}).status, 0);
   EXPECT_THAT(dir.names("f"), ElementsAre("000.png", "001.png", "002.png"));
+}
+
+TEST(Tracks, WhatAnOutputCannotHoldIsToldInOneLine) {
+  const TempDir dir;
+  const std::string all =
+      dir.write("all.toml", std::string(kCaptionScene) + "[sound]\nclicks = true\n").string();
+  const std::string captions =
+      dir.write("captions.toml", "duration = 1\n[frame]\nsize = [32, 32]\n[[caption]]\n"
+                                 "text = \"a\"\nfrom = 0\nto = 1\n")
+          .string();
+  const auto told = [&](const std::string& scene, const std::string& name) {
+    const ProcessResult result =
+        offstage({"render", scene, "-o", (dir / name).string(), "--to", "0.1", "--fps", "50"});
+    EXPECT_EQ(result.status, 0) << name;
+    return result.err;
+  };
+  EXPECT_EQ(told(all, "x.mkv"), "");
+  EXPECT_EQ(told(all, "x.gif"), "offstage: 'x.gif' holds no sound or chapters\n");
+  EXPECT_EQ(told(all, "x.apng"), "offstage: 'x.apng' holds no sound or chapters\n");
+  EXPECT_EQ(told(all, "x%d.png"), "offstage: 'x%d.png' holds no sound, captions or chapters\n");
+  EXPECT_EQ(told(all, "x.raw"), "offstage: 'x.raw' holds no sound, captions or chapters\n");
+  EXPECT_EQ(told(captions, "x.raw"), "offstage: 'x.raw' holds no captions\n");
+  EXPECT_EQ(told(captions, "x.gif"), "") << "they are in x.vtt";
 }
 
 /// A ball that flies between two walls: it starts 120 px from the right one at 100 px/s, and is back after 2

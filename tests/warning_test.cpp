@@ -103,7 +103,7 @@ TEST_F(Warned, StrictMakesNothingAndLeavesWhatIsThere) {
       {"render", "shot.toml", "-o", "x.raw", "--strict"},
       {"render", "shot.toml", "-o", "x%03d.png", "--strict"},
       {"render", "shot.toml", "--hash", "x.txt", "--strict"},
-      {"render", "shot.toml", "--poster", "x.png", "--to", "1", "--strict"}, // of the whole video's middle
+      {"render", "shot.toml", "--poster", "x.png", "--from", "4.9", "--strict"}, // the middle of what is left
       {"still", "shot.toml", "--at", "6", "-o", "x.png", "--strict"},
       {"trace", "shot.toml", "-o", "x.csv", "--events", "x.jsonl", "--strict"},
       {"trace", "shot.toml", "-o", "-",
@@ -132,9 +132,12 @@ TEST_F(Warned, StrictMakesNothingAndLeavesWhatIsThere) {
 TEST_F(Warned, StrictLooksAsFarAsWhatIsMade) {
   EXPECT_EQ(run({"render", "shot.toml", "-o", "x.mp4", "--to", "4.9", "--strict"}).status, 0);
   EXPECT_EQ(run({"still", "shot.toml", "--at", "4.9", "-o", "x.png", "--strict"}).status, 0);
-  // The poster shows the middle of the whole video, at 5 s.
-  EXPECT_EQ(
-      run({"render", "shot.toml", "-o", "x.mp4", "--to", "4.9", "--poster", "x.png", "--strict"}).status, 2);
+  // The poster shows the middle of that, or what the scene says.
+  const std::vector<std::string> poster{"render", "shot.toml", "-o",    "x.mp4",   "--to",
+                                        "4.9",    "--poster",  "x.png", "--strict"};
+  EXPECT_EQ(run(poster).status, 0);
+  dir_.write("shot.toml", std::string(kTunnel) + "[poster]\nat = 5\n");
+  EXPECT_EQ(run(poster).status, 2);
   dir_.write("shot.toml", quiet());
   const ProcessResult clean = run({"render", "shot.toml", "-o", "y.mp4", "--strict"});
   EXPECT_EQ(clean.status, 0);

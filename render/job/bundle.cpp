@@ -50,7 +50,8 @@ public:
     contents_.captions = tracks.captions;
     contents_.chapters = tracks.chapters;
 
-    Poster(folder_.temporary() / contents_.poster).write(first, scene_.timeline.poster, viewport.scale);
+    Poster(folder_.temporary() / contents_.poster)
+        .write(first, options_, scene_.timeline.poster, viewport.scale);
     // The GIF before the videos: each writes NAME.vtt, and the whole video's is the one that stays.
     renderTo(add(".gif"), gifOptions(viewport, schedule));
     renderTo(contents_.mp4, options_);

@@ -4,6 +4,7 @@
 #include "render/job/command_line.h"
 #include "render/job/fingerprint.h"
 #include "render/job/interrupt.h"
+#include "render/job/left_out.h"
 #include "render/job/notice.h"
 #include "render/job/processors.h"
 #include "render/job/sidecar.h"
@@ -228,11 +229,13 @@ private:
     std::vector<fs::path> chunks;
     for (std::int64_t chunk = 0; chunk < plan_.chunks(); ++chunk) chunks.push_back(parts.chunk(chunk));
     const VideoTracks tracks = source_.tracks(schedule_.origin(), schedule_.origin() + schedule_.seconds());
-    if (tracks.sound && !holdsSound(outputKind(options_.out)))
-      printNotice(fmt::format("{} holds no sound", quoted(options_.out.filename())));
+    printNotice(leftOutNotice(options_.out, tracks));
     output_->setTracks(tracks);
     const std::int64_t bytes = output_->join(chunks, plan_.frames());
-    if (sidecar_) sidecar_->write(tracks);
+    if (sidecar_)
+      sidecar_->write(tracks);
+    else
+      Sidecar::removeStale(options_.out);
     printNotice(output_->notice().substr(said_.size())); // what only the whole told
     return bytes;
   }

@@ -151,7 +151,7 @@ void addRenderOptions(CLI::App& app, RenderOptions& options) {
       ->type_name("I/N");
   app.add_option(
          "--poster", options.poster,
-         "also draw one moment, which stands for the video: that of the scene's [poster], else half of it")
+         "also draw one moment, which stands for the video: that of the scene's [poster], else the middle")
       ->type_name("X.png|X.jpg");
   app.add_flag_callback(
       "--no-resume", [&options] { options.resume = false; }, "start over, whatever an earlier run has left");

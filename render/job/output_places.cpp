@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using Visit = std::function<void(std::string_view what, const fs::path& file)>;
 
 void visitPaint(const Paint& paint, const Visit& visit) {
-  if (const auto* pattern = std::get_if<ImagePattern>(&paint)) visit("an image of the scene,", pattern->file);
+  if (const auto* pattern = std::get_if<ImagePattern>(&paint)) visit("an image of the scene", pattern->file);
 }
 
 void visitSound(const std::optional<SoundFile>& sound, const Visit& visit) {
@@ -29,15 +29,15 @@ void visitSound(const std::optional<SoundFile>& sound, const Visit& visit) {
 
 void visitFiles(const Scene& scene, const Visit& visit) {
   visit("the scene", scene.file);
-  for (const fs::path& file : scene.files) visit("a file that the scene reads,", file);
+  for (const fs::path& file : scene.files) visit("a file that the scene reads", file);
   for (const Look& look : scene.looks) {
     if (look.fill) visitPaint(*look.fill, visit);
     if (look.stroke) visitPaint(look.stroke->paint, visit);
   }
-  for (const TextItem& item : scene.texts) visit("a font of the scene,", item.look.font.file);
+  for (const TextItem& item : scene.texts) visit("a font of the scene", item.look.font.file);
   visitSound(scene.timeline.narration, visit);
   for (const Section& section : scene.timeline.sections) visitSound(section.narration, visit);
-  if (scene.replay) visit("the trace that the scene replays,", scene.replay->trace.file);
+  if (scene.replay) visit("the trace that the scene replays", scene.replay->trace.file);
   for (const Panel& panel : scene.panels.panels) visitFiles(*panel.scene, visit);
 }
 

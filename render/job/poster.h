@@ -1,5 +1,6 @@
 #pragma once
 
+#include "render/job/render_options.h"
 #include "render/job/source.h"
 #include "render/output/atomic_file.h"
 
@@ -12,6 +13,10 @@ namespace offstage {
 /// scene pixel.
 int printResolution(double scale);
 
+/// The moment (s of the video) that a poster shows: `at`, or without one, or where the video has been cut
+/// before it, the middle of what `options` have rendered. Throws Error(BadInput) when that is nothing.
+double posterMoment(const Source& source, const RenderOptions& options, std::optional<double> at);
+
 /// The picture that stands for a video: a .png, .jpg or .jpeg that appears whole or not at all.
 class Poster {
 public:
@@ -21,10 +26,10 @@ public:
   /// Throws Error(BadInput) for a JPEG of what is not opaque: before a video is made that it belongs to.
   void requireFit(const Source& source) const;
 
-  /// Draws what the video shows at `at` (s of the video; nothing: at half of it) and puts the file under its
-  /// name. `source` must be at frame 0. `scale`: output pixels per scene pixel, for the picture's resolution.
-  /// Throws Error(BadInput) when `at` lies outside the video, or a JPEG's background is not opaque.
-  void write(Source& source, std::optional<double> at, double scale);
+  /// Draws what the video shows at posterMoment() and puts the file under its name. Tells when that is not
+  /// `at`, or lies outside of what is rendered. `source` must be at frame 0. `scale`: output pixels per scene
+  /// pixel, for the picture's resolution. Throws Error(BadInput) when a JPEG's background is not opaque.
+  void write(Source& source, const RenderOptions& options, std::optional<double> at, double scale);
 
 private:
   std::filesystem::path path_;

@@ -1,6 +1,7 @@
 #include "render/job/rehearsal.h"
 
 #include "render/job/interrupt.h"
+#include "render/job/poster.h"
 #include "render/job/schedule.h"
 #include "render/job/still.h"
 
@@ -30,7 +31,7 @@ void rehearse(Source& source, const RenderOptions& options, std::optional<double
     last = frameOf(schedule.shot(schedule.frames() - 1).moment);
   }
   if (!options.poster.empty()) {
-    const double at = posterAt.value_or(videoSeconds(source) * 0.5);
+    const double at = posterMoment(source, options, posterAt);
     last = std::max(last, frameOf(shotAt(source, at).moment));
   }
   rehearse(source, last);

@@ -15,7 +15,7 @@ namespace offstage {
 void rehearse(Source& source, std::int64_t frame);
 
 /// As far as `options` has it drawn, options.poster included, which shows the video at `posterAt` (s;
-/// nothing: at half of it).
+/// nothing: in the middle of what is rendered).
 void rehearse(Source& source, const RenderOptions& options, std::optional<double> posterAt);
 
 } // namespace offstage

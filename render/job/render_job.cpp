@@ -4,6 +4,8 @@
 #include "render/job/console.h"
 #include "render/job/frame_maker.h"
 #include "render/job/interrupt.h"
+#include "render/job/left_out.h"
+#include "render/job/notice.h"
 #include "render/job/output_places.h"
 #include "render/job/parts.h"
 #include "render/job/sidecar.h"
@@ -40,6 +42,10 @@ RenderResult renderStream(Source& source, const RenderOptions& options) {
                                   source.title(), options.quality});
     sink->setSignalWatch(throwIfInterrupted);
     removeAbandoned(options.out);
+    // Whoever reads a pipe knows that frames are all that comes.
+    if (outputKind(options.out) == OutputKind::RawFile)
+      printNotice(leftOutNotice(options.out,
+                                source.tracks(schedule.origin(), schedule.origin() + schedule.seconds())));
   }
   std::optional<AtomicFile> hashes;
   if (!options.hashFile.empty()) {
@@ -93,9 +99,9 @@ void requireOutput(const RenderOptions& options) {
   // What waits there goes with the folder when all is made.
   const std::filesystem::path parts = Parts::folderFor(options.out);
   for (const OutputPlace& output : {hash, poster}) {
-    requireApart(output, "the folder of the parts,", parts);
+    requireApart(output, "the folder of the parts", parts);
     if (!output.out.empty())
-      requireApart({output.option, placeOf(output.out).parent_path()}, "a folder that is removed,", parts);
+      requireApart({output.option, placeOf(output.out).parent_path()}, "a folder that is removed", parts);
   }
 }
 

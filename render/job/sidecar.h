@@ -19,6 +19,10 @@ public:
   /// Writes it, whole or not at all.
   void write(const VideoTracks& tracks) const;
 
+  /// Removes what an earlier render has left beside a video that has no captions now, which would be shown
+  /// with it. Somebody else's file stays. Throws as AtomicFile when it cannot be removed.
+  static void removeStale(const std::filesystem::path& out);
+
   /// Its name. Nothing for outputs that have none: a pipe, raw frames and picture sequences.
   static std::optional<std::filesystem::path> nameFor(const std::filesystem::path& out);
 

@@ -33,8 +33,11 @@ Reason reasonOf(int error, const std::filesystem::path& path) {
   case EACCES:
   case EPERM:
     return {ExitCode::BadInput, "no permission to write in the folder " + folder};
-  case EISDIR:
-    return {ExitCode::BadInput, "it is a folder"};
+  case EISDIR: {
+    std::error_code ignored;
+    const bool isThere = path.has_filename() || std::filesystem::exists(path, ignored);
+    return {ExitCode::BadInput, isThere ? "it is a folder" : "a name that ends in / names a folder"};
+  }
   case EROFS:
     return {ExitCode::BadInput, "the folder " + folder + " is on a read-only file system"};
   case ENAMETOOLONG:

@@ -38,7 +38,7 @@ int runExercise(const std::function<std::unique_ptr<Exercise>()>& make, int argc
     if (poster) {
       StageSource source(make(), options); // at frame 0
       source.watch(warnings);
-      poster->write(source, std::nullopt, options.scale.value_or(1.0));
+      poster->write(source, options, std::nullopt, options.scale.value_or(1.0));
     }
     return static_cast<int>(ExitCode::Done);
   });

@@ -51,7 +51,7 @@ void addRender(CLI::App& app, Action& action) {
       if (poster) {
         SceneSource source(scene, viewport); // at frame 0
         source.watch(scene, warnings);
-        poster->write(source, scene.timeline.poster, viewport.scale);
+        poster->write(source, options, scene.timeline.poster, viewport.scale);
       }
       return static_cast<int>(ExitCode::Done);
     };

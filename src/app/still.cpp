@@ -6,6 +6,7 @@
 #include "render/job/output_places.h"
 #include "render/job/poster.h"
 #include "render/output/atomic_file.h"
+#include "render/output/output_kind.h"
 #include "render/output/png.h"
 #include "src/app/commands.h"
 #include "src/scene/scene.h"
@@ -42,7 +43,7 @@ void addStill(CLI::App& app, Action& action) {
   addStrictOption(verb, arguments->options.strict);
   verb.callback([arguments, &action] {
     action = [arguments] {
-      if (arguments->out.extension() != ".png")
+      if (lowerCaseEnding(arguments->out) != ".png")
         throw Error(ExitCode::BadInput,
                     fmt::format("{}: a still is a PNG; end its name in .png", arguments->out.string()));
       const RenderOptions& options = arguments->options;

@@ -22,6 +22,11 @@ std::int64_t framesOf(double seconds, double fps) {
   return std::max<std::int64_t>(std::llround(seconds * fps), 1);
 }
 
+/// A sum of times without what adding has rounded: "0.3", not "0.30000000000000004".
+std::string roundedText(double seconds) {
+  return numberText(std::round(seconds * 1e9) / 1e9);
+}
+
 /// A scene's title as a chapter's: no longer than one may be, in whole characters, and without control
 /// characters.
 std::string chapterTitle(std::string title) {
@@ -88,10 +93,24 @@ private:
                                             numberText(film_.seconds))});
   }
 
-  void rejectStart(const Section& section, std::int64_t shift) {
-    std::string what = "'start' in [[section]]";
-    if (shift > 0) what += fmt::format(" ({} s, moved by narrations)", numberText(section.start));
-    reject(section.where, what, shift > 0 ? section.start + seconds(shift) : section.start);
+  void rejectStart(const Section& section, std::int64_t shift, const std::string& why) {
+    const std::string moved =
+        shift > 0 ? fmt::format(" ({} s, moved by narrations)", numberText(section.start)) : std::string();
+    problems_.push_back({section.where, fmt::format("'start' in [[section]]{} is {} s, but {}", moved,
+                                                    roundedText(startOf(section, shift)), why)});
+  }
+
+  /// s of the video
+  [[nodiscard]] double startOf(const Section& section, std::int64_t shift) const {
+    return shift > 0 ? section.start + seconds(shift) : section.start;
+  }
+
+  /// A card that another section cut short would go too early, and leave a picture that stands for nothing.
+  void requireNoCardAt(const Section& section, std::int64_t shift) {
+    if (startOf(section, shift) < cardEnd_ - kTimeRounding)
+      rejectStart(section, shift,
+                  fmt::format("the title card of {} stands until {} s", quotedText(cardTitle_),
+                              roundedText(cardEnd_)));
   }
 
   /// From the last one on, so that of two pauses at one moment the first comes first.
@@ -111,16 +130,22 @@ private:
     for (std::size_t i = 0; i < count; ++i) {
       const Section& section = timeline_.sections[i];
       const std::int64_t start = firstFrameFrom(section.start, fps_) + shift;
-      if (start >= std::max<std::int64_t>(map_.frames(), 1) && section.card == 0.0) {
+      // A card may stand at the very end, but not behind it.
+      const std::int64_t behind = std::max<std::int64_t>(map_.frames(), 1) + (section.card > 0.0 ? 1 : 0);
+      if (start >= behind) {
         film_.seconds = static_cast<double>(map_.frames()) / fps_;
-        if (!timeline_.cut) rejectStart(section, shift);
+        if (!timeline_.cut)
+          rejectStart(section, shift, fmt::format("the video ends at {} s", numberText(film_.seconds)));
         break;
       }
+      requireNoCardAt(section, shift);
       const std::int64_t from = std::min(start, map_.frames());
       if (section.card > 0.0) {
         const std::int64_t length = framesOf(section.card, fps_);
         map_.stand(from, length);
         film_.cards.push_back({section.title, section.subtitle, seconds(from), seconds(from + length)});
+        cardEnd_ = startOf(section, shift) + section.card;
+        cardTitle_ = section.title;
       }
       // Without a map the frames are the clock's own, and a section begins exactly when it says.
       film_.chapters.push_back({section.title, shift == 0 ? section.start : seconds(start), 0.0});
@@ -208,6 +233,8 @@ private:
   TimeMap map_;
   Film film_;
   std::vector<double> sectionStarts_;
+  double cardEnd_ = 0.0;  ///< s of the video: until when the last title card stands
+  std::string cardTitle_; ///< whose that is
   std::vector<Diagnostic> problems_;
 };
 

@@ -77,8 +77,8 @@ struct Film {
 /// - times of captions and cameras are the video's, or with a `section`, those since its start.
 ///
 /// Throws SceneError when something lies after the video's end, unless `cut`: then it is left out, because
-/// somebody asked for a shorter video. `title`: of the chapter before the first section, if that does not
-/// begin at 0.
+/// somebody asked for a shorter video; and when a section starts while another's card stands. `title`: of the
+/// chapter before the first section, if that does not begin at 0.
 Film makeFilm(const Timeline& timeline, const Clock& clock, std::span<const double> narrations,
               const std::string& title);
 

@@ -55,8 +55,11 @@ void readLook(SceneBuilder& builder, const TableReader& reader, TextItem& item) 
   }
 }
 
-void readTimes(const TableReader& reader, TextItem& item) {
+void readTimes(const SceneBuilder& builder, const TableReader& reader, TextItem& item) {
   item.from = reader.number("from", Range::between(0.0, kMaxDuration));
+  if (item.from > builder.videoSeconds + 1e-9 && !builder.lengthIsGiven)
+    reader.reject("from", fmt::format("is {} s, but the video ends at {} s", numberText(item.from),
+                                      numberText(builder.videoSeconds)));
   item.fade = reader.number("fade", Range::between(0.0, kMaxDuration));
   const auto to = reader.givenNumber("to", Range::between(0.0, kMaxDuration));
   if (!to) return;
@@ -151,7 +154,7 @@ void parseText(SceneBuilder& builder, const TomlValue& table) {
   TextItem item;
   readPlace(builder, reader, item);
   readLook(builder, reader, item);
-  readTimes(reader, item);
+  readTimes(builder, reader, item);
   if (readContent(builder, reader, item)) builder.scene.texts.push_back(std::move(item));
 }
 

@@ -140,6 +140,21 @@ void parsePoster(SceneBuilder& builder, const TomlValue& table) {
   if (reader.has("at")) builder.scene.timeline.posterWhere = locationOf(builder.scene, *reader.find("at"));
 }
 
+/// Fades that meet, or are cut by the video's end, never let the whole picture be seen. A length that
+/// the command line gives may do so.
+void requireRoomForFades(SceneBuilder& builder, const TomlValue& table) {
+  const Timeline& timeline = builder.scene.timeline;
+  const double video = builder.videoSeconds;
+  if (builder.lengthIsGiven || timeline.fadeIn + timeline.fadeOut <= video + 1e-9) return;
+  const TableReader reader(table, {"timeline"}, "[timeline]", builder.errors);
+  const bool out = timeline.fadeOut > 0.0;
+  std::string what = fmt::format("is {} s", numberText(out ? timeline.fadeOut : timeline.fadeIn));
+  if (out && timeline.fadeIn > 0.0) what += fmt::format(" and 'fade_in' {} s", numberText(timeline.fadeIn));
+  reader.reject(out ? "fade_out" : "fade_in",
+                fmt::format("{}, but the video lasts only {} s: the picture would never be there in full",
+                            what, numberText(video)));
+}
+
 /// Whether how long the video is depends on sound files, which are not opened here.
 bool hasNarration(const Timeline& timeline) {
   return timeline.narration || std::ranges::any_of(timeline.sections, [](const Section& section) {
@@ -178,6 +193,7 @@ void parseTimeline(SceneBuilder& builder, const TableReader& top, const SceneOve
   if (builder.errors.count() > errorsBefore || hasNarration(timeline) || clock.steps() == 0) return;
   try {
     builder.videoSeconds = makeFilm(timeline, clock, {}, builder.scene.title).seconds;
+    if (const TomlValue* table = top.find("timeline")) requireRoomForFades(builder, *table);
   } catch (const SceneError& problems) {
     for (const Diagnostic& problem : problems.diagnostics())
       builder.errors.add(problem.where.line, problem.where.column, problem.message);

@@ -108,7 +108,7 @@ struct Timeline {
   double narrationStart = 0.0;        ///< s of the video
   bool clicks = false;                ///< `[sound]`: contacts can be heard
   double loudestClick = 500.0;        ///< px/s: the closing speed at which a click is loudest
-  std::optional<double> poster;       ///< s of the video; nothing: half of it
+  std::optional<double> poster;       ///< s of the video; nothing: the middle of what is rendered
   SourceLocation posterWhere;
   bool cut = false; ///< the command line has chosen another duration: what lies after the end is left out
 };
