@@ -36,7 +36,7 @@ struct Scene {
   WorldSetup world;
   std::vector<Look> looks;                   ///< Body::look is an index into these
   std::vector<std::string> bodyNames;        ///< by id of WorldSetup::bodies; empty where unnamed
-  std::vector<std::filesystem::path> files;  ///< read beside its text: dt log, tables of bodies, recorded input
+  std::vector<std::filesystem::path> files;  ///< read beside its text: dt log, body tables, recorded input
   Overlays overlays{};                       ///< what is drawn over and under the bodies
   std::vector<Plot> plots{};                 ///< drawn over the bodies, below the texts
   Panels panels{};                           ///< the worlds that are drawn instead of this one
