@@ -251,7 +251,8 @@ TEST(Broadphase, LeavesOutThoseFarAway) {
   std::vector<Body> bodies;
   std::vector<std::uint32_t> members;
   for (std::uint32_t i = 0; i < 10000; ++i) {
-    bodies.push_back(circle(i % 100 * 10.0, i / 100 * 10.0, 4.0));
+    const std::uint32_t row = i / 100;
+    bodies.push_back(circle(i % 100 * 10.0, row * 10.0, 4.0));
     members.push_back(i);
   }
   bodies.push_back(rectangle(0, 0, 1000, 30)); // a level of its own

@@ -24,9 +24,9 @@ TEST(BundleInABrowser, PlaysWithCaptionsAndChapters) {
   const std::string scene = dir.write("lecture.toml", kBundleScene).string();
   const std::string out = (dir / "out").string();
   ASSERT_EQ(offstage({"bundle", scene, "-o", out, "--progress", "none"}).status, 0);
+  const std::string check = OFFSTAGE_SOURCE_DIR "/tests/browser/bundle_check.mjs";
   const ProcessResult result =
-      runProcess({kNode.string(), OFFSTAGE_SOURCE_DIR "/tests/browser/bundle_check.mjs", kPlaywright.string(),
-                  kChromium.string(), out});
+      runProcess({kNode.string(), check, kPlaywright.string(), kChromium.string(), out});
   EXPECT_EQ(result.status, 0) << result.err << result.out;
 }
 

@@ -164,8 +164,10 @@ TEST(CanvasLines, TranslucentPathsAreEvenAcrossTheirPieces) {
     const double radius = random.uniform(30.0, 90.0);
     const double step = random.uniform(0.02, 0.4); // up to 23° a piece: smooth and sharp corners
     const Vec2 center = Vec2(20.0, 20.0) - Vec2(radius, 0.0);
-    for (double turn = -2.8; turn < 2.8; turn += step) // not once around: it must not cross itself
+    for (int piece = 0; piece * step < 5.6; ++piece) { // not once around: it must not cross itself
+      const double turn = -2.8 + piece * step;
       points.emplace_back(center + radius * Vec2(std::cos(turn), std::sin(turn)));
+    }
     const double width = random.uniform(3.0, 9.0);
     Picture picture = blankPicture(kSide, kSide);
     Pen(picture, width, {0, 0, 0, 100}).path(points);

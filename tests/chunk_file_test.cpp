@@ -3,9 +3,10 @@
 #include "tests/support/temp_dir.h"
 #include "tests/support/test_frames.h"
 
-#include <cstring>
+#include <algorithm>
 #include <numeric>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -100,12 +101,12 @@ TEST(ChunkFile, UnfinishedLeavesNothing) {
 TEST(PacketRecord, KeepsAllThatAMuxerNeeds) {
   const libav::Packet packet = libav::makePacket();
   ASSERT_EQ(av_new_packet(packet.get(), 5), 0);
-  std::memcpy(packet->data, "hello", 5);
+  std::ranges::copy(std::string_view("hello"), packet->data);
   packet->pts = -3;
   packet->duration = 1LL << 40U;
   packet->flags = AV_PKT_FLAG_KEY;
   std::uint8_t* side = av_packet_new_side_data(packet.get(), AV_PKT_DATA_MATROSKA_BLOCKADDITIONAL, 3);
-  std::memcpy(side, "abc", 3);
+  std::ranges::copy(std::string_view("abc"), side);
   Bytes bytes;
   packPacket(*packet, bytes);
 

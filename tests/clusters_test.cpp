@@ -21,7 +21,9 @@ Clusters flooded(const BitPlane& plane, int width, int height) {
   };
   for (int startY = 0; startY < height; ++startY) {
     for (int startX = 0; startX < width; ++startX) {
-      const auto index = [&](int x, int y) { return static_cast<std::size_t>(y * width + x); };
+      const auto index = [&](int x, int y) {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+      };
       if (!plane.get(startX, startY) || seen[index(startX, startY)]) continue;
       std::vector<std::pair<int, int>> open{{startX, startY}};
       seen[index(startX, startY)] = true;

@@ -30,9 +30,9 @@ Frame disc(double x, double y, double radius) {
   for (int row = 0; row < frame.height; ++row) {
     for (int column = 0; column < frame.width; ++column) {
       int hits = 0;
-      for (int sample = 0; sample < 64; ++sample)
-        if (std::hypot(column + (sample % 8 + 0.5) / 8 - x, row + (sample / 8 + 0.5) / 8 - y) < radius)
-          ++hits;
+      for (int down = 0; down < 8; ++down)
+        for (int across = 0; across < 8; ++across)
+          if (std::hypot(column + (across + 0.5) / 8 - x, row + (down + 0.5) / 8 - y) < radius) ++hits;
       const auto grey = static_cast<std::uint8_t>(255 - hits * 255 / 64);
       paint(frame, column, row, {grey, grey, grey, 255});
     }

@@ -257,7 +257,8 @@ TEST(Damage, OfManyDiscsOnEveryBackgroundLeavesThePixelsOfAWholeRedraw) {
     const auto byte = [&](int offset) { return static_cast<std::uint8_t>((shade + offset) % 256); };
     Picture picture = blankPicture(640, 480, {byte(0), byte(85), byte(170), 255});
     for (int i = 0; i < 16; ++i) {
-      picture.primitives.push_back(disc(i % 4 * 150 + 80, i / 4 * 110 + 50, 6.0 + 24.0 * unit(random),
+      const int row = i / 4;
+      picture.primitives.push_back(disc(i % 4 * 150 + 80, row * 110 + 50, 6.0 + 24.0 * unit(random),
                                         {byte(3 * i), byte(7 * i), byte(11 * i), 255}));
     }
     BothWays both(640, 480);

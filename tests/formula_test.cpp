@@ -47,7 +47,10 @@ private:
 /// PATH with another value while it lives.
 class PathOf {
 public:
-  explicit PathOf(const char* value) : before_(std::getenv("PATH")) { setenv("PATH", value, 1); }
+  explicit PathOf(const char* value) {
+    if (const char* before = std::getenv("PATH")) before_ = before;
+    setenv("PATH", value, 1);
+  }
   ~PathOf() { setenv("PATH", before_.c_str(), 1); }
   PathOf(const PathOf&) = delete;
   PathOf& operator=(const PathOf&) = delete;
@@ -166,6 +169,7 @@ TEST(FormulaCache, IsSharedByWritersAndReaders) {
   Mask mask{300, 200, std::vector<std::uint8_t>(60000, 77)};
   std::atomic<int> torn{0};
   std::vector<std::thread> threads;
+  threads.reserve(4);
   for (int k = 0; k < 4; ++k) {
     threads.emplace_back([&] {
       for (int i = 0; i < 100; ++i) {

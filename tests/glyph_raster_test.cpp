@@ -37,8 +37,7 @@ TEST(GlyphRaster, CoverageIsTheExactAreaOfARectangleBetweenPixels) {
   for (int y = 0; y < 3; ++y)
     for (int x = 0; x < 5; ++x)
       EXPECT_EQ(at(mask, x, y),
-                static_cast<int>(
-                    255.0 * across[static_cast<std::size_t>(x)] * down[static_cast<std::size_t>(y)] + 0.5))
+                std::lround(255.0 * across[static_cast<std::size_t>(x)] * down[static_cast<std::size_t>(y)]))
           << x << ", " << y;
 }
 
@@ -58,11 +57,12 @@ TEST(GlyphRaster, CoverageIsTheAreaOfAnyTriangle) {
     for (int y = 0; y < kSide; ++y) {
       for (int x = 0; x < kSide; ++x) {
         int hits = 0;
-        for (int s = 0; s < kSamples * kSamples; ++s)
-          hits +=
-              inside(triangle, Vec2(x + (s % kSamples + 0.5) / kSamples, y + (s / kSamples + 0.5) / kSamples))
-                  ? 1
-                  : 0;
+        for (int down = 0; down < kSamples; ++down) {
+          for (int across = 0; across < kSamples; ++across) {
+            const Vec2 sample(x + (across + 0.5) / kSamples, y + (down + 0.5) / kSamples);
+            hits += inside(triangle, sample) ? 1 : 0;
+          }
+        }
         const double share = static_cast<double>(hits) / (kSamples * kSamples);
         worst = std::max(worst, std::abs(at(mask, x, y) - 255.0 * share));
       }

@@ -125,6 +125,7 @@ double plainSsim(const Frame& a, const Frame& b) {
   std::array<double, 11> w{};
   double sum = 0.0;
   for (int i = 0; i < 11; ++i) sum += w.at(static_cast<std::size_t>(i)) = std::exp(-(i - 5) * (i - 5) / 4.5);
+  const auto weightAt = [&w](int offset) { return w.at(static_cast<std::size_t>(offset) + 5); };
   const int margin = std::min(a.width, a.height) < 11 ? 0 : 5;
   double total = 0.0;
   for (int y = margin; y < a.height - margin; ++y) {
@@ -136,8 +137,7 @@ double plainSsim(const Frame& a, const Frame& b) {
       double ab = 0.0;
       for (int j = -5; j <= 5; ++j) {
         for (int i = -5; i <= 5; ++i) {
-          const double weight =
-              w.at(static_cast<std::size_t>(i + 5)) * w.at(static_cast<std::size_t>(j + 5)) / (sum * sum);
+          const double weight = weightAt(i) * weightAt(j) / (sum * sum);
           const double va = luma(a, x + i, y + j);
           const double vb = luma(b, x + i, y + j);
           ma += weight * va;

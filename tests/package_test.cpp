@@ -12,11 +12,12 @@ TEST(Package, AnotherProjectFindsBuildsAndRunsTheInstalledLibrary) {
   const TempDir dir;
   const std::string prefix = (dir / "prefix").string();
   const std::string build = (dir / "build").string();
+  const std::string source = OFFSTAGE_SOURCE_DIR "/tests/package";
+  const std::string flags = "-DCMAKE_CXX_FLAGS=" OFFSTAGE_CXX_FLAGS;
   const ProcessResult installed = runProcess({"cmake", "--install", OFFSTAGE_BINARY_DIR, "--prefix", prefix});
   ASSERT_EQ(installed.status, 0) << installed.err;
   const ProcessResult configured =
-      runProcess({"cmake", "-G", "Ninja", "-S", OFFSTAGE_SOURCE_DIR "/tests/package", "-B", build,
-                  "-DCMAKE_PREFIX_PATH=" + prefix, "-DCMAKE_CXX_FLAGS=" OFFSTAGE_CXX_FLAGS});
+      runProcess({"cmake", "-G", "Ninja", "-S", source, "-B", build, "-DCMAKE_PREFIX_PATH=" + prefix, flags});
   ASSERT_EQ(configured.status, 0) << configured.err;
   const ProcessResult built = runProcess({"cmake", "--build", build});
   ASSERT_EQ(built.status, 0) << built.out << built.err;

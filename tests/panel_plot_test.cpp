@@ -13,6 +13,7 @@
 #include <tuple>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -98,8 +99,8 @@ TEST(PanelPlot, DrawsWhatAPlotOfEachPanelDrawsToTheLastBit) {
   for (std::size_t i = 0; i < 3; ++i) {
     std::string text = kPlanets.substr(0, cut);
     text.replace(text.find(world), world.size(), own.at(i));
-    const Scene alone =
-        sceneOf(text + "[[plot]]\ny = \"planet.energy\"\ncolor = \"" + colors.at(i) + "\"\n" + look);
+    text += fmt::format("[[plot]]\ny = \"planet.energy\"\ncolor = \"{}\"\n", colors.at(i));
+    const Scene alone = sceneOf(text + look);
     std::size_t curves = 0;
     for (const Piece& piece : drawn(alone, {frames[i]})) {
       if (std::get<1>(piece) != std::array<std::uint8_t, 3>{alone.plots[0].curves[0].color.red,

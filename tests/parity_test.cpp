@@ -33,10 +33,10 @@ std::vector<std::filesystem::path> filesOf(const std::filesystem::path& folder) 
 TEST_P(Parity, TracesAreTheProgramsByteForByte) {
   const Variant& variant = GetParam();
   const std::string folder = std::string(OFFSTAGE_BINARY_DIR "/parity/") + variant.name;
+  const std::string source = OFFSTAGE_SOURCE_DIR "/tests/parity";
   const ProcessResult configured =
-      runProcess({"cmake", "-G", "Ninja", "-S", OFFSTAGE_SOURCE_DIR "/tests/parity", "-B", folder,
-                  "-DCMAKE_BUILD_TYPE=None", "-DCMAKE_CXX_COMPILER=" + variant.compiler,
-                  "-DCMAKE_CXX_FLAGS=" + variant.flags});
+      runProcess({"cmake", "-G", "Ninja", "-S", source, "-B", folder, "-DCMAKE_BUILD_TYPE=None",
+                  "-DCMAKE_CXX_COMPILER=" + variant.compiler, "-DCMAKE_CXX_FLAGS=" + variant.flags});
   ASSERT_EQ(configured.status, 0) << configured.err;
   const ProcessResult built = runProcess({"cmake", "--build", folder});
   ASSERT_EQ(built.status, 0) << built.out << built.err;

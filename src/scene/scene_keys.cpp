@@ -409,7 +409,7 @@ constexpr SceneKey kKeys[] = {
     {"sound", "clicks", "boolean", "", "false"},
     {"sound", "loudest", "number", "px/s", "500"},
 
-    {"poster", "at", "number", "s", "half the video"},
+    {"poster", "at", "number", "s", "the middle of what is rendered"},
 };
 // clang-format on
 

@@ -28,6 +28,9 @@ inline SimOverlaps overlapsOf(std::span<const SimState> states, double side) {
   std::vector<std::vector<const SimState*>> grid(static_cast<std::size_t>(cells) *
                                                  static_cast<std::size_t>(cells));
   const auto cellOf = [&](double v) { return std::clamp(static_cast<int>(v / side * cells), 0, cells - 1); };
+  const auto cellAt = [cells](int row, int column) {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(cells) + static_cast<std::size_t>(column);
+  };
   SimOverlaps overlaps;
   std::size_t count = 0;
   for (const SimState& state : states) { // each with those before it
@@ -35,7 +38,7 @@ inline SimOverlaps overlapsOf(std::span<const SimState> states, double side) {
     const int cy = cellOf(state.y);
     for (int row = std::max(cy - 1, 0); row <= std::min(cy + 1, cells - 1); ++row) {
       for (int column = std::max(cx - 1, 0); column <= std::min(cx + 1, cells - 1); ++column) {
-        for (const SimState* other : grid[static_cast<std::size_t>(row * cells + column)]) {
+        for (const SimState* other : grid[cellAt(row, column)]) {
           const double overlap = diameter - std::hypot(other->x - state.x, other->y - state.y);
           if (!(overlap > 0.0)) continue;
           overlaps.worst = std::max(overlaps.worst, overlap / test::WorkloadS::kRadius);
@@ -44,7 +47,7 @@ inline SimOverlaps overlapsOf(std::span<const SimState> states, double side) {
         }
       }
     }
-    grid[static_cast<std::size_t>(cy * cells + cx)].push_back(&state);
+    grid[cellAt(cy, cx)].push_back(&state);
   }
   overlaps.mean /= static_cast<double>(std::max<std::size_t>(count, 1));
   return overlaps;
