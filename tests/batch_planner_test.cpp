@@ -1,4 +1,5 @@
 #include "render/raster/batch_planner.h"
+#include "tests/support/quads.h"
 
 #include <random>
 #include <vector>
@@ -12,17 +13,6 @@ constexpr ProgramKind kDisc{Coverage::Disc, PaintSource::Color, Footprint::Point
 constexpr ProgramKind kRing{Coverage::Ring, PaintSource::Color, Footprint::Point};
 constexpr ProgramKind kBox{Coverage::Box, PaintSource::Color, Footprint::Quad};
 
-Instance at(int left, int top, int side) {
-  Instance instance;
-  instance.quad = {static_cast<std::uint16_t>(left), static_cast<std::uint16_t>(top),
-                   static_cast<std::uint16_t>(left + side), static_cast<std::uint16_t>(top + side)};
-  return instance;
-}
-
-bool overlap(const Instance& a, const Instance& b) {
-  return a.quad[0] < b.quad[2] && b.quad[0] < a.quad[2] && a.quad[1] < b.quad[3] && b.quad[1] < a.quad[3];
-}
-
 TEST(BatchPlanner, FilledAndStrokedBodiesApartTakeOneBatchAMaterial) {
   BatchPlanner planner(640, 480);
   std::vector<ProgramKind> programs;
@@ -30,7 +20,7 @@ TEST(BatchPlanner, FilledAndStrokedBodiesApartTakeOneBatchAMaterial) {
   for (int i = 0; i < 100; ++i) {
     for (const ProgramKind& program : {kDisc, kRing}) {
       programs.push_back(program);
-      instances.push_back(at(i % 10 * 64, i / 10 * 48, 32));
+      instances.push_back(quad(i % 10 * 64, i / 10 * 48, 32, 32));
     }
   }
   const auto batches = planner.plan(programs, instances);
@@ -51,7 +41,8 @@ TEST(BatchPlanner, KeepsTheOrderOfWhatOverlapsAndDrawsEachOnce) {
     for (int i = 0; i < 300; ++i) {
       programs.push_back(kinds[random() % 3]);
       const int side = 1 + static_cast<int>(random() % 40);
-      instances.push_back(at(static_cast<int>(random() % 290), static_cast<int>(random() % 170), side));
+      instances.push_back(
+          quad(static_cast<int>(random() % 290), static_cast<int>(random() % 170), side, side));
     }
     std::vector<std::size_t> position(instances.size());
     std::size_t drawn = 0;

@@ -1,6 +1,7 @@
 #include "render/raster/canvas.h"
 #include "render/raster/tile_order.h"
 #include "tests/support/canvas_pictures.h"
+#include "tests/support/quads.h"
 
 #include <algorithm>
 #include <numeric>
@@ -15,17 +16,6 @@ namespace {
 constexpr int kWidth = 333;
 constexpr int kHeight = 217;
 constexpr int kTile = 64;
-
-Instance at(int left, int top, int width, int height) {
-  Instance instance;
-  instance.quad = {static_cast<std::uint16_t>(left), static_cast<std::uint16_t>(top),
-                   static_cast<std::uint16_t>(left + width), static_cast<std::uint16_t>(top + height)};
-  return instance;
-}
-
-bool overlap(const Instance& a, const Instance& b) {
-  return a.quad[0] < b.quad[2] && b.quad[0] < a.quad[2] && a.quad[1] < b.quad[3] && b.quad[1] < a.quad[3];
-}
 
 int tileOf(const Instance& instance) {
   return instance.quad[1] / kTile * 100 + instance.quad[0] / kTile;
@@ -48,7 +38,8 @@ TEST(TileOrder, KeepsTheOrderOfWhatOverlapsAndDrawsEachOnce) {
       const auto side = [&](int room) {
         return 1 + static_cast<int>(random() % static_cast<unsigned>(std::min(largest, room)));
       };
-      instances.push_back(i % 50 == 0 ? Instance{} : at(left, top, side(kWidth - left), side(kHeight - top)));
+      instances.push_back(i % 50 == 0 ? Instance{}
+                                      : quad(left, top, side(kWidth - left), side(kHeight - top)));
     }
     const std::vector<std::uint32_t> members = everyThird(TileOrder::kLargeBatch);
     const auto sorted = order.sorted(members, instances);
@@ -65,7 +56,7 @@ TEST(TileOrder, KeepsTheOrderOfWhatOverlapsAndDrawsEachOnce) {
 TEST(TileOrder, InstancesApartComeTileByTile) {
   std::vector<Instance> instances; // one a cell of 8 px, in an order of its own
   for (int y = 0; y < 50; ++y)
-    for (int x = 0; x < 50; ++x) instances.push_back(at(8 * x, 8 * y, 8, 8));
+    for (int x = 0; x < 50; ++x) instances.push_back(quad(8 * x, 8 * y, 8, 8));
   std::shuffle(instances.begin(), instances.end(), std::mt19937(5));
   std::vector<std::uint32_t> members(instances.size());
   std::iota(members.begin(), members.end(), 0U);
@@ -85,7 +76,7 @@ TEST(TileOrder, InstancesApartComeTileByTile) {
 }
 
 TEST(TileOrder, SmallBatchesStayAsTheyAre) {
-  const std::vector<Instance> instances{at(200, 200, 9, 9), at(0, 0, 9, 9)};
+  const std::vector<Instance> instances{quad(200, 200, 9, 9), quad(0, 0, 9, 9)};
   const std::vector<std::uint32_t> members{0, 1};
   TileOrder order(kWidth, kHeight);
   const auto sorted = order.sorted(members, instances);
