@@ -36,9 +36,9 @@ TEST(ReportInABrowser, DoesWhatItsKeysAndButtonsSay) {
   std::filesystem::rename(b + "/f04.png", b + "/f02.png");
   std::filesystem::rename(b + "/f", b + "/f04.png");
   ASSERT_EQ(offstage({"diff", a, b, "--html", report, "--metric", "all"}).status, 1);
+  const std::string check = OFFSTAGE_SOURCE_DIR "/tests/browser/report_check.mjs";
   const ProcessResult result =
-      runProcess({kNode.string(), OFFSTAGE_SOURCE_DIR "/tests/browser/report_check.mjs", kPlaywright.string(),
-                  kChromium.string(), report});
+      runProcess({kNode.string(), check, kPlaywright.string(), kChromium.string(), report});
   EXPECT_EQ(result.status, 0) << result.err << result.out;
 }
 

@@ -24,6 +24,7 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 Clock jittery(unsigned seed, int frames) {
   std::mt19937 random(seed);
   std::vector<std::int64_t> durations;
+  durations.reserve(static_cast<std::size_t>(frames));
   for (int i = 0; i < frames; ++i)
     durations.push_back(5'000'000 + static_cast<std::int64_t>(random() % 40'000'000));
   return Clock::recorded(durations);

@@ -125,7 +125,7 @@ FrameDifference compareFrames(const Frame& a, const Frame& b) {
     difference.worst = std::max(difference.worst, levels);
     sum += levels;
   }
-  const auto pixels = static_cast<double>(a.rgba.size() / 4);
+  const double pixels = static_cast<double>(a.rgba.size()) / 4.0;
   difference.mean = sum / (3.0 * pixels);
   difference.meanAlpha = sumAlpha / pixels;
   return difference;
